@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # What tandem_add_opros_component() and tandem_add_rtm_component() have in common.
-# tandem_component_libraries(TARGET [PKG_CONFIG module ...] [PKG_CONFIG_IF_FOUND module ...] [FORWARDS dir])
-# Modules of pkg-config whose headers and libraries the plugin uses; headers to be found where nothing else has one of
+# tandem_component_libraries(TARGET [PKG_CONFIG module ...] [PKG_CONFIG_IF_FOUND module ...] [FORWARDS dir]
+#                            [LIBRARIES_IF_FOUND name ...] [LIBRARY_DIRS dir ...])
+# Modules of pkg-config whose headers and libraries the plugin uses; libraries by name, also in the given folders; headers to be found where nothing else has one of
 # that name. With opencv4, the headers of OpenCV 1 and 2 are found, which include those that OpenCV 4 has in their place.
 
 # Behind the folders of the system: a header in `dir` must not hide another one.
@@ -10,7 +11,7 @@ function(tandem_include_last name dir)
 endfunction()
 
 function(tandem_component_libraries name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "FORWARDS" "PKG_CONFIG;PKG_CONFIG_IF_FOUND")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "FORWARDS" "PKG_CONFIG;PKG_CONFIG_IF_FOUND;LIBRARIES_IF_FOUND;LIBRARY_DIRS")
   if(arg_FORWARDS)
     tandem_include_last(${name} ${arg_FORWARDS})
   endif()
@@ -27,6 +28,13 @@ function(tandem_component_libraries name)
       endif()
     elseif(module IN_LIST arg_PKG_CONFIG)
       message(FATAL_ERROR "pkg-config knows no module ${module}; install the Debian package that has ${module}.pc")
+    endif()
+  endforeach()
+  foreach(library ${arg_LIBRARIES_IF_FOUND})
+    string(MAKE_C_IDENTIFIER "TANDEM_LIBRARY_${library}" id)
+    find_library(${id} ${library} HINTS ${arg_LIBRARY_DIRS})
+    if(${id})
+      target_link_libraries(${name} PRIVATE ${${id}})
     endif()
   endforeach()
   # Only libraries that the plugin uses, of the many that OpenCV has.

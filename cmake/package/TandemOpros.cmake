@@ -32,7 +32,7 @@ endfunction()
 
 function(tandem_add_opros_component name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "FOLDER;CXX_STANDARD;FORWARDS"
-    "SOURCES;INCLUDE_DIRS;PROFILES;DEFINITIONS;LIBRARIES;PKG_CONFIG;PKG_CONFIG_IF_FOUND")
+    "SOURCES;INCLUDE_DIRS;PROFILES;DEFINITIONS;LIBRARIES;PKG_CONFIG;PKG_CONFIG_IF_FOUND;LIBRARIES_IF_FOUND;LIBRARY_DIRS")
   if(arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "tandem_add_opros_component(${name}): unknown arguments ${arg_UNPARSED_ARGUMENTS}")
   endif()
@@ -58,7 +58,8 @@ function(tandem_add_opros_component name)
   target_include_directories(${name} PRIVATE ${include_dirs} ${arg_INCLUDE_DIRS} ${api} ${device_api})
   target_link_libraries(${name} PRIVATE Tandem::opros ${arg_LIBRARIES} ${CMAKE_DL_LIBS})
   tandem_component_libraries(${name} FORWARDS "${arg_FORWARDS}"
-    PKG_CONFIG ${arg_PKG_CONFIG} PKG_CONFIG_IF_FOUND ${arg_PKG_CONFIG_IF_FOUND})
+    PKG_CONFIG ${arg_PKG_CONFIG} PKG_CONFIG_IF_FOUND ${arg_PKG_CONFIG_IF_FOUND}
+    LIBRARIES_IF_FOUND ${arg_LIBRARIES_IF_FOUND} LIBRARY_DIRS ${arg_LIBRARY_DIRS})
   # What the components' own makefiles define; without it some sources take their Windows branch.
   target_compile_definitions(${name} PRIVATE _OPROS_LINUX_ ${arg_DEFINITIONS})
   # Without symbols that are unique in the process the library can be unloaded and built anew; what is missing is told

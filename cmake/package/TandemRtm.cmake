@@ -144,7 +144,7 @@ endfunction()
 
 function(tandem_add_rtm_component name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "FOLDER;CXX_STANDARD;FORWARDS"
-    "SOURCES;CANDIDATES;IDL;MORE_IDL;INCLUDE_DIRS;DEFINITIONS;LIBRARIES;PKG_CONFIG;PKG_CONFIG_IF_FOUND")
+    "SOURCES;CANDIDATES;IDL;MORE_IDL;INCLUDE_DIRS;DEFINITIONS;LIBRARIES;PKG_CONFIG;PKG_CONFIG_IF_FOUND;LIBRARIES_IF_FOUND;LIBRARY_DIRS")
   if(arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "tandem_add_rtm_component(${name}): unknown arguments ${arg_UNPARSED_ARGUMENTS}")
   endif()
@@ -182,7 +182,8 @@ function(tandem_add_rtm_component name)
   target_link_directories(${name} PRIVATE $<TARGET_FILE_DIR:Tandem::rtm>)
   target_link_libraries(${name} PRIVATE Tandem::rtm ${arg_LIBRARIES} ${CMAKE_DL_LIBS} ${TANDEM_RTM_EXT_LIBRARIES})
   tandem_component_libraries(${name} FORWARDS "${arg_FORWARDS}"
-    PKG_CONFIG ${arg_PKG_CONFIG} PKG_CONFIG_IF_FOUND ${arg_PKG_CONFIG_IF_FOUND})
+    PKG_CONFIG ${arg_PKG_CONFIG} PKG_CONFIG_IF_FOUND ${arg_PKG_CONFIG_IF_FOUND}
+    LIBRARIES_IF_FOUND ${arg_LIBRARIES_IF_FOUND} LIBRARY_DIRS ${arg_LIBRARY_DIRS})
   target_compile_definitions(${name} PRIVATE ${arg_DEFINITIONS})
   # Without symbols that are unique in the process the library can be unloaded and built anew; what is missing is told
   # when it is linked and not when it is loaded.

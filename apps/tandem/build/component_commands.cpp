@@ -42,7 +42,9 @@ void add_build_options(CLI::App* command, PluginBuildOptions& options, const cha
         ->type_name("FILE");
     repeated("--exclude", options.sources.excluded, "source file or pattern to leave out (repeatable)")
         ->type_name("FILE");
-    command->add_option("--standard", options.standard, "C++ standard (14)")
+    command
+        ->add_option("--standard", options.standard,
+                     "C++ standard (that of the folder's CMake project, at least 14)")
         ->check(CLI::IsMember({11, 14, 17, 20}));
     command
         ->add_option("--build-type", options.build_type,

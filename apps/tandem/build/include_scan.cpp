@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <regex>
 #include <sstream>
 
 namespace tandem::command {
@@ -80,9 +81,23 @@ class Scanner {
         auto file = find_below(name);
         if (const auto neighbour = neighbours_.find(name); file.empty() && neighbour != neighbours_.end())
             file = neighbour->second;
-        if (file.empty()) return find_idl(name);
+        if (const auto beside = (place / to_posix_path(name)).lexically_normal();
+            file.empty() && is_file(beside))
+            file = beside;
+        if (file.empty()) return find_otherwise(name, place);
         result.forwards[name] = file.string();
         read(file);
+    }
+
+    // Headers of OpenRTM are in folders with a version, openrtm-1.1/rtm/RTC.h; those of Windows users have backslashes.
+    void find_otherwise(const std::string& name, const fs::path& place) {
+        static const std::regex versioned("(?:openrtm|rtm|coil)-[0-9.]+/(.+)");
+        std::smatch found;
+        std::string meant = to_posix_path(name);
+        if (std::regex_match(meant, found, versioned)) meant = found[1].str();
+        if (meant == name) return find_idl(name);
+        result.forwards[name] = meant;
+        resolve(meant, place);
     }
 
     // Returns the file whose path ends with the name, preferably in the same case.
@@ -133,6 +148,15 @@ class Scanner {
     std::set<fs::path> places_, visited_;
 };
 
+// Returns the text of a forwarding header.
+std::string forwarding_text(const std::string& meant) {
+    // With quotes, a header made from IDL would include the forwarding header if the names are equal.
+    if (meant[0] != '/') return "#include <" + meant + ">\n";
+    // A header below a copy of the interface that Tandem provides would include this copy. Its text here includes ours.
+    if (has_upstream_api(fs::path(meant).parent_path().parent_path())) return read_text(meant);
+    return "#include \"" + meant + "\"\n";
+}
+
 } // namespace
 
 IncludeScan scan_includes(const fs::path& folder, const Paths& sources, const Paths& include_dirs,
@@ -150,9 +174,7 @@ fs::path write_forwards(const std::map<std::string, std::string>& forwards, cons
         if (name.empty() || name[0] == '/' || *file.lexically_relative(folder).begin() == "..") continue;
         if (meant.find_first_of("\"\\\n") != std::string::npos) continue; // #include has no escapes
         fs::create_directories(file.parent_path());
-        // Brackets for headers made from IDL: with quotes, this file would include itself if the names are
-        // equal.
-        write_file(file, meant[0] == '/' ? "#include \"" + meant + "\"\n" : "#include <" + meant + ">\n");
+        write_file(file, forwarding_text(meant));
     }
     return search_path;
 }

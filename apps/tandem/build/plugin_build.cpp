@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/build/plugin_build.hpp"
 
+#include "apps/tandem/build/build_folder.hpp"
 #include "apps/tandem/build/first_error.hpp"
 #include "apps/tandem/build/folder/checkout.hpp"
 #include "apps/tandem/build/folder/cmake_lists.hpp"
@@ -8,6 +9,8 @@
 #include "apps/tandem/build/header_packages.hpp"
 #include "apps/tandem/build/include_scan.hpp"
 #include "apps/tandem/build/plain_path.hpp"
+#include "apps/tandem/build/project/cmake_package.hpp"
+#include "apps/tandem/build/project/cmake_projects.hpp"
 #include "apps/tandem/build/remedy.hpp"
 #include "apps/tandem/build/select_sources.hpp"
 #include "apps/tandem/output/print.hpp"
@@ -17,7 +20,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
 #include <optional>
@@ -29,21 +31,12 @@
 namespace tandem::command {
 namespace {
 
-/// Returns the folder of this program's TandemConfig.cmake. The search starts at the program's own file, so
-/// that an installed tree can be moved. Throws std::runtime_error if it is missing.
-std::filesystem::path cmake_package_folder() {
-    const auto prefix = std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path();
-    auto folder = prefix / TANDEM_PACKAGE_DIR;
-    if (std::filesystem::is_regular_file(folder / "TandemConfig.cmake")) return folder;
-    throw std::runtime_error("cannot find " + (folder / "TandemConfig.cmake").string() +
-                             ", which builds of components need; reinstall Tandem (cmake --install)");
-}
-
 /// The plugin to build: the component of a model in a folder.
 struct Plugin {
     std::string model, name;
     SelectedSources sources;
     std::vector<std::string> definitions; ///< from the component's project files
+    std::string problem;                  ///< of the component's CMake project; "": none
     NeighbourHeaders neighbours;
     IncludeScan includes;
     bool needs_cv_h =
@@ -73,12 +66,42 @@ const char* languages(const std::vector<fs::path>& sources) {
     return std::any_of(sources.begin(), sources.end(), is_c) ? "C CXX" : "CXX";
 }
 
+std::vector<fs::path> include_dirs(const Plugin& plugin, const PluginBuildOptions& options) {
+    std::vector<fs::path> dirs(options.include_dirs.begin(), options.include_dirs.end());
+    const auto& of_project = plugin.sources.target.include_dirs;
+    dirs.insert(dirs.end(), of_project.begin(), of_project.end());
+    return dirs;
+}
+
+// Returns options for the C++ sources: those of the component's project, and headers to include first.
+std::string compile_options(const Plugin& plugin) {
+    auto options = plugin.sources.target.options;
+    if (plugin.needs_cv_h) options.emplace_back("SHELL:-include cv.h -include highgui.h");
+    std::string text;
+    for (const auto& option : options)
+        text +=
+            "add_compile_options(" + text::quote_cmake("$<$<COMPILE_LANGUAGE:CXX>:" + option + ">") + ")\n";
+    return text;
+}
+
+// Components are older than C++17, which removed exception specifications. Our headers need C++14.
+int standard_of(const Plugin& plugin, const PluginBuildOptions& options) {
+    return options.standard != 0 ? options.standard : std::max(14, plugin.sources.target.standard);
+}
+
+// Returns the libraries to link. Projects also name libraries that their sources do not need here.
+std::string libraries(const ProjectTarget& target, const PluginBuildOptions& options) {
+    std::vector<std::string> files = options.libraries, names;
+    for (const auto& library : target.libraries) (library[0] == '/' ? files : names).push_back(library);
+    return cmake_argument("LIBRARIES", files) + cmake_argument("LIBRARIES_IF_FOUND", names) +
+           cmake_argument("LIBRARY_DIRS", absolute_names(target.library_dirs));
+}
+
 /// Returns the CMakeLists.txt that builds the plugin in the folder `build`. `forwards`: folder of the
 /// forwarding headers.
 /// Paths are absolute, because the CMakeLists.txt is in the build folder.
 std::string cmake_project(const Plugin& plugin, const PluginBuildOptions& options, const fs::path& build,
                           const fs::path& forwards) {
-    const std::vector<fs::path> include_dirs(options.include_dirs.begin(), options.include_dirs.end());
     const std::vector<std::string> found_modules(plugin.includes.pkg_config.begin(),
                                                  plugin.includes.pkg_config.end());
     // Definitions from the command line come last, because the compiler uses the last definition of a name.
@@ -87,56 +110,18 @@ std::string cmake_project(const Plugin& plugin, const PluginBuildOptions& option
     const bool rtm = plugin.model == "rtm"; // the CMake function of RTM skips programs
     return std::string("cmake_minimum_required(VERSION 3.16)\nproject(component ") +
            languages(plugin.sources.sources) + ")\nfind_package(Tandem REQUIRED COMPONENTS " + plugin.model +
-           ")\n" +
-           (plugin.needs_cv_h ? "add_compile_options(\"$<$<COMPILE_LANGUAGE:CXX>:SHELL:-include cv.h "
-                                "-include highgui.h>\")\n"
-                              : "") +
-           "set(CMAKE_LIBRARY_OUTPUT_DIRECTORY " + text::quote_cmake((build / "made").string()) +
-           ")\ntandem_add_" + plugin.model + "_component(" + plugin.name + "\n  FOLDER " +
-           text::quote_cmake(fs::absolute(options.folder).string()) +
+           ")\n" + compile_options(plugin) + "set(CMAKE_LIBRARY_OUTPUT_DIRECTORY " +
+           text::quote_cmake((build / "made").string()) + ")\ntandem_add_" + plugin.model + "_component(" +
+           plugin.name + "\n  FOLDER " + text::quote_cmake(fs::absolute(options.folder).string()) +
            cmake_argument(rtm ? "CANDIDATES" : "SOURCES", absolute_names(plugin.sources.sources)) +
            (rtm ? cmake_argument("MORE_IDL", absolute_names(plugin.includes.idl_files)) : "") +
-           cmake_argument("INCLUDE_DIRS", absolute_names(include_dirs)) +
-           cmake_argument("DEFINITIONS", definitions) + cmake_argument("LIBRARIES", options.libraries) +
+           cmake_argument("INCLUDE_DIRS", absolute_names(include_dirs(plugin, options))) +
+           cmake_argument("DEFINITIONS", definitions) + libraries(plugin.sources.target, options) +
            cmake_argument("PKG_CONFIG", options.pkg_config) +
            cmake_argument("PKG_CONFIG_IF_FOUND", found_modules) +
            cmake_argument("FORWARDS", {forwards.string()}) +
-           fmt::format("\n  CXX_STANDARD {})\n", options.standard);
+           fmt::format("\n  CXX_STANDARD {})\n", standard_of(plugin, options));
 }
-
-namespace fs = std::filesystem;
-
-/// The folder in which CMake works. Unless the user named a folder, it is temporary and removed with this
-/// object.
-class BuildFolder {
-  public:
-    explicit BuildFolder(const fs::path& wanted) : temporary_(wanted.empty()) {
-        if (temporary_) {
-            std::error_code error;
-            std::string name = (fs::temp_directory_path(error) / "tandem-build-XXXXXX").string();
-            if (error)
-                throw std::runtime_error("TMPDIR does not name a folder to build in: " + error.message());
-            require_cmake_path(name);
-            if (!mkdtemp(name.data()))
-                throw std::runtime_error("temporary folder " + name + " cannot be created");
-            path_ = name;
-        } else {
-            fs::create_directories(wanted);
-            path_ = fs::absolute(wanted);
-        }
-    }
-    ~BuildFolder() {
-        std::error_code ignored;
-        if (temporary_) fs::remove_all(path_, ignored);
-    }
-    BuildFolder(const BuildFolder&) = delete;
-    BuildFolder& operator=(const BuildFolder&) = delete;
-    const fs::path& path() const { return path_; }
-
-  private:
-    bool temporary_;
-    fs::path path_;
-};
 
 // Returns the advice that follows the first error of a failed step.
 std::string advice(const std::string& error, const Plugin& plugin, const fs::path& folder) {
@@ -192,7 +177,8 @@ std::optional<std::string> run_cmake(const std::vector<std::string>& command, do
     print_text(output);
     const std::string error = first_error(output);
     throw std::runtime_error("component " + plugin.name + " " + what + ": " + error +
-                             advice(error, plugin, folder) + " (the compiler's output is above)");
+                             advice(error, plugin, folder) + " (the compiler's output is above" +
+                             (plugin.problem.empty() ? "" : "; " + plugin.problem) + ")");
 }
 
 // Adds each missing header that exists in exactly one place of the checkout, and prints a note. Returns
@@ -228,9 +214,8 @@ bool add_cv_h(const std::string& output, Plugin& plugin) {
 void compile(Plugin& plugin, const PluginBuildOptions& options, const fs::path& build) {
     const std::string bin = (build / "bin").string();
     for (;;) {
-        plugin.includes =
-            scan_includes(options.folder, plugin.sources.sources,
-                          {options.include_dirs.begin(), options.include_dirs.end()}, plugin.neighbours);
+        plugin.includes = scan_includes(options.folder, plugin.sources.sources, include_dirs(plugin, options),
+                                        plugin.neighbours);
         for (const auto& idl : plugin.includes.idl_files) require_cmake_path(idl); // from any sub-folder
         const auto forwards = write_forwards(plugin.includes.forwards, build / "forwards");
         write_file(build / "CMakeLists.txt", cmake_project(plugin, options, build, forwards));
@@ -319,18 +304,20 @@ void require_folder(const fs::path& folder) {
 // CMake configures each time. A second build in a kept folder compiles only changed files.
 // Everything is made in the build folder; the output folder is touched only after the build has succeeded.
 fs::path build_plugin(const std::string& model, const std::string& name, const EntryPoint& entry_point,
-                      const PluginBuildOptions& options, const fs::path& default_folder) {
+                      const PluginBuildOptions& options, const fs::path& default_folder,
+                      CMakeProjects& projects) {
     for (const auto& dir : options.include_dirs) require_folder(dir);
     const fs::path output =
         fs::absolute(options.output.empty() ? default_folder : options.output).lexically_normal();
     require_plain_names(options, output);
-    Plugin plugin{model,
-                  name,
-                  select_sources(options.folder, entry_point, options.sources),
-                  read_definitions(options.folder),
-                  {},
+    Plugin plugin{model, name, select_sources(options.folder, entry_point, options.sources, {name, projects}),
+                  {},    {},   {},
                   {}};
+    plugin.definitions = plugin.sources.target.sources.empty() ? read_cmake_lists(options.folder).definitions
+                                                               : plugin.sources.target.definitions;
+    plugin.problem = projects.problem();
     for (const auto& source : plugin.sources.sources) require_cmake_path(source);
+    for (const auto& dir : plugin.sources.target.include_dirs) require_cmake_path(dir);
     const BuildFolder build(options.build);
     const fs::path cmake_output = build.path() / "made";
     compile(plugin, options, build.path());

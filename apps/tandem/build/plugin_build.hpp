@@ -3,6 +3,7 @@
 // project that calls a function of the Tandem package, and runs CMake.
 #pragma once
 
+#include "apps/tandem/build/project/cmake_projects.hpp"
 #include "apps/tandem/build/select_sources.hpp"
 
 #include <filesystem>
@@ -18,7 +19,7 @@ struct PluginBuildOptions {
     std::filesystem::path build;  ///< empty: a temporary folder
     std::vector<std::string> include_dirs, definitions, libraries, pkg_config;
     SourceOptions sources;
-    int standard = 14;
+    int standard = 0;                          ///< of C++; 0: the project's, at least 14
     std::string build_type = "RelWithDebInfo"; ///< for CMake
     double timeout_s = 600;                    ///< separate limits for configuring and compiling
 };
@@ -32,6 +33,11 @@ void require_folder(const std::filesystem::path& folder);
 /// one line after printing the compiler's output.
 std::filesystem::path build_plugin(const std::string& model, const std::string& name,
                                    const EntryPoint& entry_point, const PluginBuildOptions& options,
-                                   const std::filesystem::path& default_folder);
+                                   const std::filesystem::path& default_folder, CMakeProjects& projects);
+
+/// Returns the folder for the projects of a component's folder: kept if the user keeps the build folder.
+inline std::filesystem::path projects_folder(const PluginBuildOptions& options) {
+    return options.build.empty() ? options.build : options.build / "projects";
+}
 
 } // namespace tandem::command

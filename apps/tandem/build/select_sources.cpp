@@ -90,6 +90,19 @@ void remove_others(const Paths& entries, const EntryPoint& entry_point, Paths& s
     });
 }
 
+void use_list(const Paths& listed, const std::string& project_files, SelectedSources& selected) {
+    for (const auto& source : selected.sources)
+        if (std::find(listed.begin(), listed.end(), source) == listed.end())
+            selected.left_out.push_back(source);
+    selected.sources = listed;
+    selected.project_files = project_files;
+}
+
+template <class Condition>
+void remove_unless_all(std::vector<SourceList>& lists, Condition condition) {
+    if (!std::all_of(lists.begin(), lists.end(), condition)) std::erase_if(lists, condition);
+}
+
 // Uses the sources that project files list together with a source that defines the entry point.
 void apply_source_lists(const fs::path& folder, const Paths& entries, SelectedSources& selected) {
     std::set<fs::path> places{folder, folder / "src"};
@@ -101,9 +114,9 @@ void apply_source_lists(const fs::path& folder, const Paths& entries, SelectedSo
                     return std::find(entries.begin(), entries.end(), source) != entries.end();
                 }))
                 lists.push_back(list);
-    // Projects of Visual C++ also list sources for Windows.
-    if (!std::all_of(lists.begin(), lists.end(), [](const auto& list) { return list.for_windows; }))
-        std::erase_if(lists, [](const auto& list) { return list.for_windows; });
+    // Projects of Visual C++ also list sources for Windows, and programs sources with main().
+    remove_unless_all(lists, [](const auto& list) { return list.for_windows; });
+    remove_unless_all(lists, [](const auto& list) { return list.is_program; });
     Paths listed, project_files;
     const auto add = [](Paths& all, const fs::path& file) {
         if (std::find(all.begin(), all.end(), file) == all.end()) all.push_back(file);
@@ -112,31 +125,37 @@ void apply_source_lists(const fs::path& folder, const Paths& entries, SelectedSo
         add(project_files, list.project_file);
         for (const auto& source : list.sources) add(listed, source);
     }
-    if (listed.empty()) return;
-    for (const auto& source : selected.sources)
-        if (std::find(listed.begin(), listed.end(), source) == listed.end())
-            selected.left_out.push_back(source);
-    selected.sources = listed;
-    selected.project_files = names_of(project_files, folder);
+    if (!listed.empty()) use_list(listed, names_of(project_files, folder), selected);
+}
+
+bool find_target(const Paths& entries, const fs::path& folder, ProjectSearch search, ProjectTarget& target) {
+    auto found = search.projects.find_target(folder, entries, search.name);
+    if (found) target = std::move(*found);
+    return found.has_value();
 }
 
 } // namespace
 
 SelectedSources select_sources(const fs::path& named_folder, const EntryPoint& entry_point,
-                               const SourceOptions& options) {
+                               const SourceOptions& options, ProjectSearch search) {
     // Canonical, so that "../x.cpp" in a project file has the same path as x.cpp in the folder.
     const fs::path folder = fs::canonical(named_folder);
     SelectedSources selected;
     if (!options.sources.empty()) {
         selected.sources = named_sources(folder, options.sources);
+        find_target(filter(selected.sources, entry_point.function), folder, search, selected.target);
     } else {
         add_sources(folder, selected.sources);
         add_sources(folder / "src", selected.sources);
         auto entries = entries_of(selected.sources, entry_point);
         if (entries.empty()) entries = entries_of(list_files_below(folder), entry_point);
         for (const auto& entry : entries) add_sources(entry.parent_path(), selected.sources);
-        remove_others(entries, entry_point, selected.sources);
-        apply_source_lists(folder, entries, selected);
+        if (find_target(entries, folder, search, selected.target)) {
+            use_list(selected.target.sources, "CMakeLists.txt", selected);
+        } else {
+            remove_others(entries, entry_point, selected.sources);
+            apply_source_lists(folder, entries, selected);
+        }
     }
     remove_excluded(folder, options.excluded, selected.sources);
     if (selected.sources.empty())

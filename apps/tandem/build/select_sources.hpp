@@ -2,6 +2,8 @@
 // Selects the sources of a component's plugin.
 #pragma once
 
+#include "apps/tandem/build/project/cmake_projects.hpp"
+
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -27,13 +29,20 @@ struct SelectedSources {
     /// In the component's folder, but not listed in `project_files`.
     std::vector<std::filesystem::path> left_out;
     std::string project_files;
+    ProjectTarget target; ///< of the component's CMake project; without sources if there is none
 };
 
-/// Selects the sources of the component in `folder`: the sources in the folder and its src/, and those beside
-/// the source that defines the entry point. If project files list that source, uses their lists; uses Visual
-/// C++ projects only if there are no others. Throws std::runtime_error if there is no source or if several
-/// define the entry point.
+/// The CMake projects around the component, and the name that its target probably has.
+struct ProjectSearch {
+    std::string name;
+    CMakeProjects& projects;
+};
+
+/// Selects the sources of the component in `folder`. A target of a CMake project that compiles the source with the
+/// entry point decides. Otherwise they are the sources in the folder, its src/ and beside that source, or those that
+/// other project files list together with it. Throws std::runtime_error if there is no source or if several define
+/// the entry point.
 SelectedSources select_sources(const std::filesystem::path& folder, const EntryPoint& entry_point,
-                               const SourceOptions& options);
+                               const SourceOptions& options, ProjectSearch search);
 
 } // namespace tandem::command

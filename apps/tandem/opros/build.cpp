@@ -37,9 +37,10 @@ std::string library_stem(const engine::ComponentProfile& profile) {
 int opros_build(const OprosBuildOptions& options) {
     require_folder(options.folder);
     const auto profile = select_component_profile(options.folder, options.profile);
+    CMakeProjects projects(projects_folder(options), options.timeout_s);
     // Beside the profile, where opros_host looks first.
     const auto library = build_plugin("opros", library_stem(profile), {"getComponent"}, options,
-                                      profile.location.file.parent_path());
+                                      profile.location.file.parent_path(), projects);
     print_data(library.string() + "\n");
     return 0;
 }

@@ -147,7 +147,7 @@ constexpr char application[] = R"(<?xml version="1.0" encoding="UTF-8"?>
 </package_profile>
 )";
 
-// For larger projects. tandem opros build does not read it.
+// For larger projects. tandem opros build asks CMake for the sources in it.
 constexpr char build[] = R"(cmake_minimum_required(VERSION 3.16)
 project(@NAME@ CXX)
 find_package(Tandem REQUIRED COMPONENTS opros)

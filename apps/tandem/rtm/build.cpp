@@ -42,8 +42,8 @@ std::vector<Module> select_modules(const RtmBuildOptions& options, const std::ve
 }
 
 // Builds one of the folder's modules and prints the library's path. `several`: other modules are built too.
-void build_module(const Module& module, const std::vector<Module>& all, RtmBuildOptions options,
-                  bool several) {
+void build_module(const Module& module, const std::vector<Module>& all, RtmBuildOptions options, bool several,
+                  CMakeProjects& projects) {
     require_component_name(module.name); // it becomes the name of a file and of a CMake target
     EntryPoint entry_point{module.function};
     for (const auto& other : all) {
@@ -54,7 +54,8 @@ void build_module(const Module& module, const std::vector<Module>& all, RtmBuild
             entry_point.others.push_back(other.function);
     }
     if (several && !options.build.empty()) options.build /= module.name;
-    print_data(build_plugin("rtm", module.name, entry_point, options, options.folder).string() + "\n");
+    print_data(build_plugin("rtm", module.name, entry_point, options, options.folder, projects).string() +
+               "\n");
 }
 
 } // namespace
@@ -63,13 +64,14 @@ int rtm_build(const RtmBuildOptions& options) {
     require_folder(options.folder);
     const auto all = find_modules(options.folder);
     const auto selected = select_modules(options, all);
+    CMakeProjects projects(projects_folder(options), options.timeout_s);
     if (selected.size() == 1) {
-        build_module(selected.front(), all, options, false);
+        build_module(selected.front(), all, options, false, projects);
         return 0;
     }
     std::vector<Module> failed;
     for (const auto& module : selected) try {
-            build_module(module, all, options, true);
+            build_module(module, all, options, true, projects);
         } catch (const std::runtime_error& error) {
             print_note("tandem: {}\n", replace_control_characters(error.what()));
             failed.push_back(module);

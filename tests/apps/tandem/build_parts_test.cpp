@@ -29,12 +29,14 @@ Names names_of(const std::vector<fs::path>& files) {
 }
 
 Names selected(const fs::path& folder, const SourceOptions& options = {}) {
-    return names_of(select_sources(folder, {"getComponent"}, options).sources);
+    CMakeProjects projects("", 60);
+    return names_of(select_sources(folder, {"getComponent"}, options, {"Old", projects}).sources);
 }
 
 std::string refused(const fs::path& folder, const SourceOptions& options = {}) {
+    CMakeProjects projects("", 60);
     try {
-        select_sources(folder, {"getComponent"}, options);
+        select_sources(folder, {"getComponent"}, options, {"Old", projects});
     } catch (const std::runtime_error& error) {
         return error.what();
     }
@@ -66,7 +68,9 @@ TEST_CASE("sources not listed in the folder's makefile, CMakeLists.txt or Visual
                  "NAME = Old # the library\nSRCS = $(NAME).cpp \\\n  Helper.cpp ../common/Gain.cpp\n"
                  "OBJS = $(SRCS:.cpp=.o)\n");
     CHECK(selected(old) == listed);
-    CHECK(names_of(select_sources(old, {"getComponent"}, {}).left_out) == Names{"OldBackup.cpp"});
+    CMakeProjects projects("", 60);
+    CHECK(names_of(select_sources(old, {"getComponent"}, {}, {"Old", projects}).left_out) ==
+          Names{"OldBackup.cpp"});
     folder.write("Old/Makefile", "OBJS = Old.o Helper.o ../common/Gain.o\nother: OldBackup.o\n");
     CHECK(selected(old) == listed);
     fs::remove(old / "Makefile");
@@ -205,9 +209,10 @@ TEST_CASE("unconditional definitions of the project's CMakeLists.txt are used") 
                                    "if(WIN32)\n add_definitions(-DWIN32_LEAN)\nendif()\n");
     folder.write("rtc/CMakeLists.txt", "ADD_DEFINITIONS(-DNAME=\"${MAJOR}\" -DPLAIN)\n");
     const auto rtc = folder.path() / "rtc";
-    CHECK(read_definitions(rtc) == Names{"ROBOT_VERSION=\"3.1\"", "IOB=4", "NAME=\"3\"", "PLAIN"});
+    CHECK(read_cmake_lists(rtc).definitions ==
+          Names{"ROBOT_VERSION=\"3.1\"", "IOB=4", "NAME=\"3\"", "PLAIN"});
     fs::remove(folder.path() / ".git"); // the folders above are not the component's
-    CHECK(read_definitions(rtc) == Names{"PLAIN"});
+    CHECK(read_cmake_lists(rtc).definitions == Names{"PLAIN"});
 }
 
 TEST_CASE("an error about a header or a library is followed by a remedy") {

@@ -2,10 +2,10 @@
 #include "apps/tandem/build/folder/cmake_lists.hpp"
 
 #include "apps/tandem/build/folder/checkout.hpp"
+#include "apps/tandem/build/folder/cmake_condition.hpp"
 #include "apps/tandem/build/folder/source_text.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <set>
 #include <sstream>
 #include <utility>
@@ -13,53 +13,8 @@
 namespace tandem::command {
 namespace {
 
-// A reference to a variable, ${NAME} or $(NAME), and its place in a word. `name` is empty if there is none.
-struct Reference {
-    std::size_t begin, end;
-    std::string name;
-};
-Reference find_variable_reference(const std::string& word) {
-    const auto begin = word.find('$');
-    if (begin == std::string::npos || begin + 1 == word.size()) return {};
-    const char open = word[begin + 1];
-    const auto end = open == '{'   ? word.find('}', begin)
-                     : open == '(' ? word.find(')', begin)
-                                   : std::string::npos;
-    if (end == std::string::npos) return {};
-    return {begin, end + 1, word.substr(begin + 2, end - begin - 2)};
-}
-
 namespace fs = std::filesystem;
-
-// Returns the commands of a CMakeLists.txt: names in lower case, with the text between their parentheses.
-std::vector<std::pair<std::string, std::string>> read_commands(const fs::path& file) {
-    std::string text;
-    for (const auto& line : read_lines(file)) text += line + '\n';
-    std::vector<std::pair<std::string, std::string>> commands;
-    for (std::size_t open = 0; (open = text.find('(', open)) != std::string::npos;) {
-        const auto end = text.find_last_not_of(" \t", open - 1); // end of the name, for open > 0
-        const auto close = text.find(')', open);
-        if (open == 0 || end == std::string::npos || close == std::string::npos) break;
-        std::size_t begin = end + 1;
-        while (begin > 0 &&
-               (std::isalnum(static_cast<unsigned char>(text[begin - 1])) || text[begin - 1] == '_'))
-            --begin;
-        commands.emplace_back(to_lower(text.substr(begin, end + 1 - begin)),
-                              text.substr(open + 1, close - open - 1));
-        open = close;
-    }
-    return commands;
-}
-
-// Applies set(), project() and list(APPEND).
-void read_cmake_variables(const std::string& command, const Words& words, Variables& variables) {
-    if (command == "project")
-        variables["PROJECT_NAME"] = {words[0]};
-    else if (command == "set")
-        variables[words[0]] = Words(words.begin() + 1, std::find(words.begin() + 1, words.end(), "CACHE"));
-    else if (command == "list" && words.size() > 1 && words[0] == "APPEND")
-        variables[words[1]].insert(variables[words[1]].end(), words.begin() + 2, words.end());
-}
+using Commands = std::vector<CMakeCommand>;
 
 // Returns NAME or NAME=VALUE from an argument of add_definitions(). Removes the escapes of a string literal's
 // quotes for CMake and the shell. Returns "" for another option.
@@ -78,95 +33,220 @@ std::string to_definition(const std::string& word) {
     return name.substr(2) + "=" + (literal ? '"' + unescaped(value) + '"' : unescaped(value));
 }
 
-// Reads the definitions of one CMakeLists.txt. The files in its sub-folders inherit `variables`.
-void read_cmake_definitions(const fs::path& file, Variables& variables, Words& definitions) {
-    const std::set<std::string> begins{"if", "foreach", "while", "function", "macro"},
-        ends{"endif", "endforeach", "endwhile", "endfunction", "endmacro"};
-    int depth = 0;
-    for (const auto& [name, text] : read_commands(file)) {
-        depth += static_cast<int>(begins.count(name)) - static_cast<int>(ends.count(name));
-        const Words words = expand(split(text), variables);
-        if (!words.empty()) read_cmake_variables(name, words, variables);
-        if (name != "add_definitions" || depth > 0) continue;
-        std::istringstream arguments(text);
-        for (std::string word; arguments >> word;)
-            for (const auto& each : expand({word}, variables))
-                if (const auto definition = to_definition(each); !definition.empty())
-                    definitions.push_back(definition);
+// A macro or function of a project.
+struct Macro {
+    Words parameters;
+    Commands body;
+};
+
+class Interpreter {
+  public:
+    void read(const fs::path& folder) {
+        result.targets.clear(); // those of the folders above
+        variables_["CMAKE_CURRENT_SOURCE_DIR"] = variables_["PROJECT_SOURCE_DIR"] = {folder.string()};
+        read_file(folder / "CMakeLists.txt");
     }
-}
+
+    CMakeLists result;
+
+  private:
+    void read_file(const fs::path& file) {
+        if (depth_ > max_depth) return;
+        ++depth_;
+        const auto commands = read_commands(file);
+        variables_["CMAKE_CURRENT_LIST_DIR"] = {file.parent_path().string()};
+        run(commands, 0, commands.size());
+        --depth_;
+    }
+
+    // Returns the index of the command that closes the block.
+    static std::size_t find_end(const Commands& all, std::size_t begin, std::size_t end) {
+        int depth = 0;
+        for (auto at = begin; at < end; ++at) {
+            depth += all[at].name == all[begin].name ? 1 : all[at].name == "end" + all[begin].name ? -1 : 0;
+            if (depth == 0) return at;
+        }
+        return end;
+    }
+
+    void run(const Commands& all, std::size_t begin, std::size_t end) {
+        for (auto at = begin; at < end; ++at) {
+            const auto& name = all[at].name;
+            const bool is_block =
+                name == "foreach" || name == "while" || name == "function" || name == "macro";
+            const auto last = is_block ? find_end(all, at, end) : at;
+            if (name == "if")
+                at = run_branches(all, at, end);
+            else if (name == "foreach")
+                run_loop(all, at, last);
+            else if (name == "function" || name == "macro")
+                define(all, at, last);
+            else if (!is_block)
+                run_command(all[at]);
+            if (is_block) at = last;
+        }
+    }
+
+    // Runs the branches that are taken or may be taken. Returns the index of endif().
+    std::size_t run_branches(const Commands& all, std::size_t begin, std::size_t end) {
+        bool done = false;
+        const bool was_certain = certain_;
+        auto at = begin;
+        while (at < end && all[at].name != "endif") {
+            const auto truth =
+                all[at].name == "else" ? Truth::yes : evaluate_condition(all[at].text, variables_);
+            const auto next = find_branch_end(all, at, end);
+            if (!done && truth != Truth::no) {
+                certain_ = certain_ && truth == Truth::yes;
+                run(all, at + 1, next);
+            }
+            done = done || truth == Truth::yes;
+            at = next;
+        }
+        certain_ = was_certain;
+        return at;
+    }
+
+    static std::size_t find_branch_end(const Commands& all, std::size_t begin, std::size_t end) {
+        int depth = 0;
+        for (auto at = begin + 1; at < end; ++at) {
+            if (depth == 0 && (all[at].name == "elseif" || all[at].name == "else" || all[at].name == "endif"))
+                return at;
+            depth += all[at].name == "if" ? 1 : all[at].name == "endif" ? -1 : 0;
+        }
+        return end;
+    }
+
+    void run_loop(const Commands& all, std::size_t begin, std::size_t end) {
+        Words words = expand(split(all[begin].text), variables_);
+        if (words.empty()) return;
+        const auto name = words[0];
+        Words items;
+        bool lists = false;
+        for (auto word = words.begin() + 1; word != words.end(); ++word) {
+            if (*word == "IN" || *word == "LISTS" || *word == "ITEMS")
+                lists = *word == "LISTS";
+            else if (!lists)
+                items.push_back(*word);
+            else if (const auto known = variables_.find(*word); known != variables_.end())
+                items.insert(items.end(), known->second.begin(), known->second.end());
+        }
+        for (const auto& item : items) {
+            if (++work_ > max_work) return;
+            variables_[name] = {item};
+            run(all, begin + 1, end);
+        }
+    }
+
+    void define(const Commands& all, std::size_t begin, std::size_t end) {
+        const Words words = split(all[begin].text);
+        if (words.empty()) return;
+        const auto at = [&](std::size_t index) { return all.begin() + static_cast<std::ptrdiff_t>(index); };
+        macros_[to_lower(words[0])] = {{words.begin() + 1, words.end()},
+                                       {at(std::min(begin + 1, end)), at(end)}};
+    }
+
+    void call(const Macro& macro, const Words& arguments) {
+        if (depth_ > max_depth) return;
+        ++depth_;
+        const auto named = std::min(macro.parameters.size(), arguments.size());
+        for (std::size_t i = 0; i < named; ++i) variables_[macro.parameters[i]] = {arguments[i]};
+        for (std::size_t i = 0; i < arguments.size(); ++i)
+            variables_["ARGV" + std::to_string(i)] = {arguments[i]};
+        variables_["ARGV"] = arguments;
+        variables_["ARGN"] = Words(arguments.begin() + static_cast<std::ptrdiff_t>(named), arguments.end());
+        run(macro.body, 0, macro.body.size());
+        --depth_;
+    }
+
+    void run_command(const CMakeCommand& command) {
+        const Words words = expand(split(command.text), variables_);
+        for (const auto& word : words) work_ += word.size();
+        if (++work_ > max_work) return; // macros, loops and lists can multiply
+        if (command.name == "add_definitions" || command.name == "add_compile_definitions")
+            add_definitions(command);
+        else if (const auto macro = macros_.find(command.name); macro != macros_.end())
+            call(Macro(macro->second), words); // a copy, because the body may define it anew
+        else if (!words.empty())
+            run_command(command.name, words);
+    }
+
+    void run_command(const std::string& name, const Words& words) {
+        if (name == "project")
+            variables_["PROJECT_NAME"] = {words[0]};
+        else if (name == "set" || name == "option")
+            set(name, words);
+        else if (name == "list" && words.size() > 1 && words[0] == "APPEND")
+            variables_[words[1]].insert(variables_[words[1]].end(), words.begin() + 2, words.end());
+        else if (name == "list" && words.size() > 1 && words[0] == "REMOVE_ITEM")
+            for (auto word = words.begin() + 2; word != words.end(); ++word)
+                std::erase(variables_[words[1]], *word);
+        else if (name == "include")
+            include(words[0]);
+        else if (words.size() > 1 &&
+                 (name == "aux_source_directory" || (name == "file" && words[0].rfind("GLOB", 0) == 0)))
+            variables_[words[1]] = {unknown_files};
+        else if (name.ends_with("add_library") || name.ends_with("add_executable") ||
+                 is_list_of_own_macro(name))
+            result.targets.push_back({words, !name.ends_with("library")});
+    }
+
+    // A macro from a file that is not here, such as add_rtc_library().
+    static bool is_list_of_own_macro(const std::string& name) {
+        return name.starts_with("add_") && (name.ends_with("_library") || name.ends_with("_executable"));
+    }
+
+    void set(const std::string& command, const Words& words) {
+        auto end = std::find(words.begin() + 1, words.end(), "CACHE");
+        if (end == words.end()) end = std::find(words.begin() + 1, words.end(), "PARENT_SCOPE");
+        const bool keeps = !certain_ || command == "option" || (end != words.end() && *end == "CACHE");
+        if (keeps && variables_.count(words[0]) != 0) return;
+        if (command == "option") // the last word may belong to the help text
+            variables_[words[0]] = {to_lower(words.back()) == "on" || words.back() == "TRUE" ? "ON" : "OFF"};
+        else
+            variables_[words[0]] = Words(words.begin() + 1, end);
+    }
+
+    void include(const std::string& name) {
+        Words folders{variables_["CMAKE_CURRENT_LIST_DIR"]};
+        const auto& modules = variables_["CMAKE_MODULE_PATH"];
+        folders.insert(folders.end(), modules.begin(), modules.end());
+        const auto here = variables_["CMAKE_CURRENT_LIST_DIR"];
+        for (const auto& folder : folders)
+            for (const char* ending : {"", ".cmake"})
+                if (const fs::path file = fs::path(folder) / (name + ending); fs::is_regular_file(file)) {
+                    read_file(file);
+                    variables_["CMAKE_CURRENT_LIST_DIR"] = here;
+                    return;
+                }
+    }
+
+    void add_definitions(const CMakeCommand& command) {
+        if (!certain_) return;
+        std::istringstream arguments(command.text);
+        for (std::string word; arguments >> word;)
+            for (auto each : expand({word}, variables_)) {
+                if (command.name == "add_compile_definitions" && each.rfind("-D", 0) != 0) each = "-D" + each;
+                if (const auto definition = to_definition(each); !definition.empty())
+                    result.definitions.push_back(definition);
+            }
+    }
+
+    static constexpr int max_depth = 20;
+    static constexpr std::size_t max_work = 16 << 20;
+    Variables variables_{{"CMAKE_SYSTEM_NAME", {"Linux"}}, {"CMAKE_CXX_COMPILER_ID", {"GNU"}}};
+    std::map<std::string, Macro> macros_;
+    bool certain_ = true;  // not within a branch with an unknown condition
+    int depth_ = 0;        // of macros and included files
+    std::size_t work_ = 0; // commands and bytes of their words
+};
 
 } // namespace
 
-Words expand(const Words& words, const Variables& variables) {
-    Words all;
-    for (std::string word : words) {
-        Words values{word};
-        for (auto found = find_variable_reference(word); !found.name.empty();
-             found = find_variable_reference(word)) {
-            const auto known = variables.find(found.name);
-            values = known == variables.end() ? Words{} : known->second;
-            if (values.size() != 1 || (found.begin == 0 && found.end == word.size())) break;
-            word.replace(found.begin, found.end - found.begin, values[0]);
-            values = {word};
-        }
-        all.insert(all.end(), values.begin(), values.end());
-    }
-    return all;
-}
-
-Words split(std::string text) {
-    std::replace_if(
-        text.begin(), text.end(), [](char c) { return c == '"' || c == ';' || c == ','; }, ' ');
-    std::istringstream stream(text);
-    Words words;
-    for (std::string word; stream >> word;) words.push_back(word);
-    return words;
-}
-
-std::vector<std::string> read_lines(const std::filesystem::path& file) {
-    std::istringstream stream(read_text(file));
-    std::vector<std::string> lines;
-    bool continued = false;
-    for (std::string line; std::getline(stream, line);) {
-        line = line.substr(0, line.find('#'));
-        line.erase(line.find_last_not_of(" \t\r") + 1);
-        const bool continues = !line.empty() && line.back() == '\\';
-        if (continues) line.back() = ' ';
-        if (continued)
-            lines.back() += line;
-        else
-            lines.push_back(line);
-        continued = continues;
-    }
-    return lines;
-}
-
-std::vector<Words> read_cmake_targets(const fs::path& file) {
-    std::vector<Words> lists;
-    const std::set<std::string> targets{"add_library", "add_executable", "rtmbuild_add_library",
-                                        "rtmbuild_add_executable", "rosbuild_add_library"};
-    const auto folder = file.parent_path().string();
-    Variables variables{{"CMAKE_CURRENT_SOURCE_DIR", {folder}}, {"PROJECT_SOURCE_DIR", {folder}}};
-    for (const auto& [name, text] : read_commands(file)) {
-        const Words words = expand(split(text), variables);
-        if (words.empty()) continue;
-        read_cmake_variables(name, words, variables);
-        if (words.size() > 1 &&
-            (name == "aux_source_directory" || (name == "file" && words[0].rfind("GLOB", 0) == 0)))
-            variables[words[1]] = {unknown_files};
-        else if (targets.count(name) != 0)
-            lists.push_back(words);
-    }
-    return lists;
-}
-
-std::vector<std::string> read_definitions(const fs::path& folder) {
-    Variables variables;
-    Words definitions;
-    for (const auto& each : ancestors_in_checkout(folder))
-        read_cmake_definitions(each / "CMakeLists.txt", variables, definitions);
-    return definitions;
+CMakeLists read_cmake_lists(const fs::path& folder) {
+    Interpreter interpreter;
+    for (const auto& each : ancestors_in_checkout(folder)) interpreter.read(each);
+    return interpreter.result;
 }
 
 } // namespace tandem::command

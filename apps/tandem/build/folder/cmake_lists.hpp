@@ -1,32 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-#pragma once
 // Reads a CMakeLists.txt without running it, as far as possible.
-#include <filesystem>
-#include <map>
-#include <string>
-#include <vector>
+#pragma once
+
+#include "apps/tandem/build/folder/cmake_commands.hpp"
 
 namespace tandem::command {
 
-using Words = std::vector<std::string>;
-using Variables = std::map<std::string, Words>;
-
-/// Expands the variables ${NAME} and $(NAME) in words. A word that is one reference may become several words
-/// or none. A word with an unknown variable is omitted.
-Words expand(const Words& words, const Variables& variables);
-
-/// Splits text at white space, quotes, ';' and ','.
-Words split(std::string text);
-
-/// Returns the file's lines without comments. Joins lines that end with a backslash.
-std::vector<std::string> read_lines(const std::filesystem::path& file);
-
-/// Returns the words of each command that lists a target's sources. A pattern (GLOB) becomes unknown_files.
-std::vector<Words> read_cmake_targets(const std::filesystem::path& file);
+/// The words of a command that lists the sources of a target. A pattern (GLOB) is unknown_files.
+struct CMakeTarget {
+    Words words;
+    bool is_program = false;
+};
 inline const std::string unknown_files = "*";
 
-/// Returns the definitions (NAME or NAME=VALUE) that CMakeLists.txt files add outside of if() and similar
-/// blocks: the folder's file and, in a checkout, the files above it.
-std::vector<std::string> read_definitions(const std::filesystem::path& folder);
+struct CMakeLists {
+    std::vector<CMakeTarget> targets; ///< of the folder's own file
+    Words definitions;                ///< NAME or NAME=VALUE
+};
+
+/// Reads the CMakeLists.txt of the folder and, in a checkout, those above it, which define variables and macros for
+/// it. Branches of if() for other platforms are skipped. Branches with an unknown condition define nothing for the
+/// compiler, and no variable that is defined already.
+CMakeLists read_cmake_lists(const std::filesystem::path& folder);
 
 } // namespace tandem::command

@@ -33,8 +33,9 @@ void add_source(const fs::path& folder, const std::string& word, std::vector<fs:
         }
 }
 
-void add_list(const fs::path& project_file, const Words& words, std::vector<SourceList>& lists) {
-    SourceList list{project_file, {}, is_visual_studio_project(project_file)};
+void add_list(const fs::path& project_file, const Words& words, std::vector<SourceList>& lists,
+              bool is_program = false) {
+    SourceList list{project_file, {}, is_visual_studio_project(project_file), is_program};
     for (const auto& word : words) {
         if (word == unknown_files) return;
         add_source(project_file.parent_path(), word, list.sources);
@@ -106,7 +107,8 @@ std::vector<SourceList> read_source_lists(const fs::path& folder) {
     std::vector<SourceList> lists;
     for (const auto& file : list_files(folder)) {
         if (file.filename() == "CMakeLists.txt")
-            for (const auto& words : read_cmake_targets(file)) add_list(file, words, lists);
+            for (const auto& target : read_cmake_lists(folder).targets)
+                add_list(file, target.words, lists, target.is_program);
         else if (is_makefile(file)) {
             for (const auto& [name, words] : read_make_variables(file)) add_list(file, words, lists);
         } else if (is_visual_studio_project(file))

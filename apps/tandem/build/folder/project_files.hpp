@@ -13,6 +13,7 @@ struct SourceList {
     std::filesystem::path project_file;
     std::vector<std::filesystem::path> sources; ///< absolute; only those that exist
     bool for_windows = false;                   ///< from Visual C++
+    bool is_program = false;                    ///< the target of a CMakeLists.txt is one
 };
 
 /// Returns the lists of the project files in the folder itself. Omits lists with a pattern (GLOB, wildcard).

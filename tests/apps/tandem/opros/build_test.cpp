@@ -38,6 +38,8 @@ void old_component(const Folder& folder, const std::string& body) {
     folder.write("Old/profile/OldService.xml", "<service_port_type_profile/>");
 }
 
+std::string error_of(std::vector<std::string> arguments) { return build(std::move(arguments)).errors; }
+
 std::vector<std::string> files_in(const fs::path& dir) {
     std::vector<std::string> names;
     for (const auto& entry : fs::directory_iterator(dir)) names.push_back(entry.path().filename());
@@ -296,6 +298,36 @@ TEST_CASE("the file that --profile names is relative to the current folder, as o
     INFO(built.output << built.errors);
     CHECK(built.exit_code == 0);
     CHECK(fs::exists(folder.path() / "One/Third.so"));
+}
+
+TEST_CASE("copies of a profile are one profile, and different profiles are named with what differs") {
+    const Folder folder;
+    const std::string one = folder.path() / "One";
+    const auto write_profile = [&](const std::string& file, const std::string& library) {
+        folder.write(file,
+                     "<component_profile><name>One</name><execution_environment><library_name>" + library +
+                         "</library_name></execution_environment><execution_semantics><type>passive</type>"
+                         "</execution_semantics></component_profile>\n");
+    };
+    write_profile("One/One.xml", "One.dll");
+    write_profile("One/profile/One.xml", "One.dll");
+    CHECK_THAT(error_of({one}), Catch::Contains("no C++ source")); // so the profile was found
+    write_profile("One/profile/One.xml", "Other.dll");
+    CHECK_THAT(
+        error_of({one}),
+        Catch::Contains("has several component profiles: One.xml, profile/One.xml; the first two differ in "
+                        "<library_name>: One.dll and Other.dll; choose one with --profile FILE"));
+}
+
+TEST_CASE("the profile of a component may be in the folder above its sources") {
+    const Folder folder;
+    for (const char* sources : {"One/src", "Two", "Three"}) fs::create_directories(folder.path() / sources);
+    folder.component("One/Any", "Any.dll");
+    folder.component("Two", "Two.dll");
+    CHECK_THAT(error_of({folder.path() / "One/src"}), Catch::Contains("no C++ source"));
+    CHECK_THAT(error_of({folder.path() / "Two"}), Catch::Contains("no C++ source"));
+    CHECK_THAT(error_of({folder.path() / "Three"}),
+               Catch::Contains("no component profile")); // only that of Two
 }
 
 // In the style of the vision components of OPRoS: OpenCV's C API of 2010.

@@ -252,3 +252,34 @@ TEST_CASE("each of several modules in a folder is built from its own sources") {
                                 Catch::EndsWith("tandem: 1 of the 2 modules in " + dir +
                                                 " were not built: Subscriber (see the lines above)\n"));
 }
+
+// In the style of projects for Windows and Linux: only CMake's expansion of the macro says that SeveralComp.cpp is a program.
+TEST_CASE("an RT-Component is built as its CMake project says, on Linux and without what is missing") {
+    const Folder folder;
+    const std::string dir = folder.path() / "Several";
+    folder.write("Several/CMakeLists.txt",
+                 "cmake_minimum_required(VERSION 2.8)\nproject(Several)\nfind_package(OpenRTM REQUIRED)\n"
+                 "find_package(NoSuchRobot REQUIRED)\nif(WIN32)\n  set(FLAGS -D__WIN32__ -D__NT__)\nendif()\n"
+                 "include_directories(${OPENRTM_INCLUDE_DIRS})\n"
+                 "add_definitions(${OPENRTM_CFLAGS} ${FLAGS} -DGAIN=2)\n"
+                 "macro(add_rtc_library name)\n  add_library(${name} SHARED ${ARGN})\n"
+                 "  target_link_libraries(${name} ${OPENRTM_LIBRARIES} no_such_robot)\n"
+                 "  add_executable(${name}Comp ${ARGN} ${name}Comp.cpp)\nendmacro()\n"
+                 "add_rtc_library(Several Several.cpp)\n");
+    folder.write(
+        "Several/Several.cpp",
+        "#include <rtm\\Manager.h>\n#include <coil-1.1/coil/Properties.h>\n#include <openrtm-2.0/rtm/RTC.h>\n"
+        "#include \".\\parts\\Part.h\"\n#ifdef __WIN32__\n#error for Windows\n#endif\n"
+        "extern \"C\" void SeveralInit(RTC::Manager*) { static coil::Properties all; part(GAIN); }\n");
+    folder.write("Several/parts/Part.h", "inline int part(int gain) { return gain; }\n");
+    folder.write("Several/SeveralComp.cpp", "#define PROGRAM int main()\nPROGRAM { return not_declared; }\n");
+    const auto built = tandem_program({"rtm", "build", dir});
+    INFO(built.output << built.errors);
+    CHECK(built.exit_code == 0);
+    CHECK(built.output == dir + "/Several.so\n");
+    folder.write("Several/Several.cpp",
+                 "#include <robot/NoSuch.h>\nextern \"C\" void SeveralInit(RTC::Manager*) {}\n");
+    CHECK_THAT(failed({dir}),
+               Catch::Contains("NoSuch.h") &&
+                   Catch::Contains("CMakeLists.txt requires packages that were not found: NoSuchRobot"));
+}

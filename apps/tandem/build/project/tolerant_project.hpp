@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace tandem::command {
+
+/// The beginning of a line in CMake's output that names a missing package.
+inline constexpr char missing_package[] = "-- tandem: no package ";
+
+/// CMake code that runs before project(). It lets a project configure without what only some of its targets or only
+/// builds need. CMake keeps a replaced command under its name with a leading underscore.
+inline constexpr char tolerant_project[] = R"(cmake_policy(VERSION 3.16)
+get_property(defined GLOBAL PROPERTY TANDEM_TOLERANT)
+if(defined)
+  return()
+endif()
+set_property(GLOBAL PROPERTY TANDEM_TOLERANT ON)
+find_package(PkgConfig QUIET)
+macro(tandem_note_missing prefix) # further: the name of the package, or its modules
+  string(TOUPPER ${prefix} tandem_upper)
+  if("REQUIRED" IN_LIST tandem_arguments AND NOT ${prefix}_FOUND AND NOT ${tandem_upper}_FOUND)
+    message(STATUS "tandem: no package ${ARGN}")
+  endif()
+endmacro()
+macro(find_package)
+  set(tandem_arguments ${ARGV})
+  if(NOT ("${ARGV0}" STREQUAL "PkgConfig" AND PkgConfig_FOUND)) # it would replace pkg_check_modules()
+    list(TRANSFORM tandem_arguments REPLACE "^REQUIRED$" COMPONENTS) # components may follow REQUIRED
+    _find_package(${tandem_arguments})
+    set(tandem_arguments ${ARGV})
+    tandem_note_missing(${ARGV0} ${ARGV0})
+  endif()
+endmacro()
+macro(pkg_check_modules)
+  set(tandem_modules ${ARGN})
+  list(REMOVE_ITEM tandem_modules REQUIRED QUIET IMPORTED_TARGET GLOBAL)
+  set(tandem_arguments ${ARGV})
+  list(REMOVE_ITEM tandem_arguments REQUIRED)
+  _pkg_check_modules(${tandem_arguments})
+  set(tandem_arguments ${ARGV})
+  tandem_note_missing(${ARGV0} ${tandem_modules})
+endmacro()
+function(add_dependencies) # on targets of documentation or IDL that do not exist
+endfunction()
+function(message)
+  set(arguments ${ARGV})
+  list(TRANSFORM arguments REPLACE "^FATAL_ERROR$" WARNING)
+  _message(${arguments} "") # also without text
+endfunction()
+)";
+
+} // namespace tandem::command

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+// What `tandem opros build` and `tandem rtm build` learn from the CMake project of a component, with and without
+// configuring it.
+#include "apps/tandem/build/folder/cmake_lists.hpp"
+#include "apps/tandem/build/project/cmake_projects.hpp"
+#include "apps/tandem/build/select_sources.hpp"
+#include "tests/host/opros/engine/folder.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+using namespace tandem::command;
+
+namespace {
+
+namespace fs = std::filesystem;
+using Names = std::vector<std::string>;
+
+const std::string module_text = "void ArmInit(RTC::Manager* manager) {\n}\n";
+
+Names names_of(const std::vector<fs::path>& files) {
+    Names names;
+    for (const auto& file : files) names.push_back(file.filename());
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+SelectedSources select(const fs::path& folder, CMakeProjects& projects, const SourceOptions& options = {}) {
+    return select_sources(folder, {"ArmInit"}, options, {"Arm", projects});
+}
+
+} // namespace
+
+TEST_CASE("branches of a CMakeLists.txt for other platforms are skipped, also where they set variables") {
+    const Folder folder;
+    folder.write("CMakeLists.txt",
+                 "option(FAST \"moves fast (default)\" ON)\noption(SLOW \"moves slowly\" OFF)\n"
+                 "if(WIN32)\n  set(FLAGS -D__WIN32__)\n  list(APPEND sources win.cpp)\n"
+                 "elseif(APPLE)\n  add_definitions(-DMAC)\n"
+                 "else()\n  list(APPEND sources posix.cpp)\n  add_definitions(-DPOSIX)\nendif()\n"
+                 "if((FAST OR SLOW) AND NOT SLOW)\n  add_compile_definitions(QUICK=1)\nendif()\n"
+                 "if(CMAKE_SYSTEM_NAME STREQUAL \"Windows\")\n  add_definitions(-DWINDOWS)\nendif()\n"
+                 "if(NOT_KNOWN)\n  add_definitions(-DGUESSED)\n  set(FLAGS -DGUESSED)\nendif()\n"
+                 "foreach(joint 1 2)\n  list(APPEND sources joint${joint}.cpp)\nendforeach()\n"
+                 "add_definitions(${FLAGS})\nadd_library(Arm SHARED ${sources})\n");
+    const auto lists = read_cmake_lists(folder.path());
+    CHECK(lists.definitions == Names{"POSIX", "QUICK=1", "GUESSED"});
+    REQUIRE(lists.targets.size() == 1);
+    CHECK(lists.targets[0].words == Names{"Arm", "SHARED", "posix.cpp", "joint1.cpp", "joint2.cpp"});
+}
+
+TEST_CASE(
+    "macros of a project that add libraries are expanded, also from the folder above and included files") {
+    const Folder folder;
+    fs::create_directories(folder.path() / ".git");
+    folder.write("cmake/rtc.cmake", "function(add_rtc_library name)\n  add_library(${name} SHARED ${ARGN})\n"
+                                    "  add_executable(${name}Comp ${ARGN} ${name}Comp.cpp)\nendfunction()\n");
+    folder.write("CMakeLists.txt",
+                 "set(CMAKE_MODULE_PATH ${CMAKE_CURRENT_SOURCE_DIR}/cmake)\ninclude(rtc)\n");
+    folder.write("arm/CMakeLists.txt", "add_rtc_library(Arm Arm.cpp Part.cpp)\n"
+                                       "add_other_library(Hand Hand.cpp)\nadd_dependencies(Hand Arm)\n");
+    const auto targets = read_cmake_lists(folder.path() / "arm").targets;
+    REQUIRE(targets.size() == 3);
+    CHECK(targets[0].words == Names{"Arm", "SHARED", "Arm.cpp", "Part.cpp"});
+    CHECK_FALSE(targets[0].is_program);
+    CHECK(targets[1].words == Names{"ArmComp", "Arm.cpp", "Part.cpp", "ArmComp.cpp"});
+    CHECK(targets[1].is_program);
+    CHECK(targets[2].words == Names{"Hand", "Hand.cpp"}); // of a macro that is not here
+}
+
+TEST_CASE("a macro that calls itself and a file that includes itself are not followed for ever") {
+    const Folder folder;
+    folder.write("CMakeLists.txt",
+                 "add_library(Arm Arm.cpp)\nmacro(again)\n  again()\n  again()\nendmacro()\nagain()\n"
+                 "include(CMakeLists.txt)\nif(" +
+                     std::string(100000, '(') + std::string(100000, ')') + ")\nendif()\nif(BROKEN\n");
+    CHECK_FALSE(read_cmake_lists(folder.path()).targets.empty());
+}
+
+// The shapes in one: a program with a further source, an own static library, branches, a header that configuring
+// makes, and required packages that are missing.
+TEST_CASE("CMake itself says what the library of a component compiles") {
+    const Folder folder;
+    fs::create_directories(folder.path() / ".git");
+    folder.write(
+        "CMakeLists.txt",
+        "cmake_minimum_required(VERSION 2.8)\nproject(arms CXX)\nfind_package(NoSuchRobot REQUIRED)\n"
+        "find_package(PkgConfig REQUIRED)\npkg_check_modules(GONE REQUIRED no-such-module)\n"
+        "set(CMAKE_CXX_STANDARD 17)\nadd_subdirectory(arm)\n");
+    folder.write("arm/config.h.in", "#define JOINTS @JOINTS@\n");
+    folder.write(
+        "arm/CMakeLists.txt",
+        "if(WIN32)\n  add_definitions(-D__WIN32__)\nendif()\nset(JOINTS 6)\nconfigure_file(config.h.in "
+        "config.h)\n"
+        "include_directories(${CMAKE_CURRENT_BINARY_DIR} ../include)\n"
+        "add_definitions(-DNAME=\"Arm 1\" -Wall -Werror -O3 -fopenmp)\n"
+        "add_library(part STATIC Part.cpp)\nadd_library(unused STATIC Unused.cpp)\n"
+        "add_library(Arm SHARED Arm.cpp)\nadd_dependencies(Arm unused)\ntarget_link_libraries(Arm part m)\n"
+        "add_executable(ArmComp Arm.cpp ArmComp.cpp)\n");
+    folder.write("include/units.h", "");
+    folder.write("arm/Arm.cpp", module_text);
+    for (const char* other : {"arm/Part.cpp", "arm/ArmComp.cpp", "arm/Unused.cpp", "arm/Old.cpp"})
+        folder.write(other, "");
+    CMakeProjects projects("", 60);
+    const auto found = select(folder.path() / "arm", projects);
+    CHECK(names_of(found.sources) == Names{"Arm.cpp", "Part.cpp"});
+    CHECK(names_of(found.left_out) == Names{"ArmComp.cpp", "Old.cpp", "Unused.cpp"});
+    CHECK(found.target.definitions == Names{"Arm_EXPORTS", "NAME=\"Arm 1\""});
+    CHECK(found.target.options == Names{"-fopenmp"});
+    CHECK(found.target.libraries == Names{"m"});
+    CHECK(found.target.standard == 17);
+    REQUIRE(found.target.include_dirs.size() == 2);
+    CHECK(fs::exists(found.target.include_dirs[0] / "config.h"));
+    CHECK(fs::exists(found.target.include_dirs[1] / "units.h"));
+    CHECK_THAT(projects.problem(),
+               Catch::EndsWith("requires packages that were not found: NoSuchRobot, no-such-module"));
+    // The project says how to compile sources that the user names.
+    CHECK(select(folder.path() / "arm", projects, {{"Arm.cpp"}, {}}).target.standard == 17);
+}
+
+TEST_CASE("a library that a project makes from object libraries has their sources") {
+    const Folder folder;
+    folder.write("CMakeLists.txt",
+                 "project(arms CXX)\nadd_library(objects OBJECT Arm.cpp Part.cpp)\n"
+                 "add_library(Arm MODULE $<TARGET_OBJECTS:objects>)\ntarget_link_libraries(Arm m)\n");
+    folder.write("Arm.cpp", module_text);
+    for (const char* other : {"Part.cpp", "Old.cpp"}) folder.write(other, "");
+    CMakeProjects projects("", 60);
+    const auto found = select(folder.path(), projects);
+    CHECK(names_of(found.sources) == Names{"Arm.cpp", "Part.cpp"});
+    CHECK(found.target.name == "Arm");
+    CHECK(found.target.libraries == Names{"m"});
+}
+
+TEST_CASE("a project that cannot be configured is read without running it, and the reason is known") {
+    const Folder folder;
+    folder.write("CMakeLists.txt",
+                 "project(Arm)\ninclude(${NOWHERE}/missing.cmake)\nadd_library(Arm Arm.cpp Part.cpp)\n"
+                 "add_executable(ArmComp Arm.cpp ArmComp.cpp)\n");
+    folder.write("Arm.cpp", module_text);
+    for (const char* other : {"Part.cpp", "ArmComp.cpp"}) folder.write(other, "");
+    CMakeProjects projects("", 60);
+    const auto found = select(folder.path(), projects);
+    CHECK(names_of(found.sources) == Names{"Arm.cpp", "Part.cpp"});
+    CHECK(found.target.sources.empty());
+    CHECK_THAT(projects.problem(), Catch::Contains("CMakeLists.txt cannot be configured: CMake Error at") &&
+                                       Catch::Contains("missing.cmake"));
+}
+
+TEST_CASE("a project that takes too long to configure or needs the network is stopped") {
+    const Folder folder;
+    folder.write("CMakeLists.txt", "project(Arm NONE)\nexecute_process(COMMAND sleep 60)\n");
+    folder.write("Arm.cpp", module_text);
+    CMakeProjects projects("", 0.5);
+    CHECK(names_of(select(folder.path(), projects).sources) == Names{"Arm.cpp"});
+    CHECK_THAT(projects.problem(), Catch::Contains("it takes too long"));
+    folder.write("CMakeLists.txt",
+                 "project(Arm NONE)\nfile(DOWNLOAD http://localhost/robot.zip robot.zip STATUS status)\n"
+                 "list(GET status 0 code)\nif(NOT code EQUAL 0)\n  include(no_network.cmake)\nendif()\n");
+    CMakeProjects others("", 60);
+    CHECK(names_of(select(folder.path(), others).sources) == Names{"Arm.cpp"});
+    CHECK_THAT(others.problem(), Catch::Contains("no_network.cmake"));
+}
