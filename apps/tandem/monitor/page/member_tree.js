@@ -47,12 +47,11 @@ export class MemberTree {
     item.members.show(open ? this.membersOf(key, port) : [], ({curve}) => curveId(curve));
   }
 
-  /** Signals come first, then what tells only the time or the number of the message. */
+  /** In the order of the message, so that nothing moves under the mouse when the values have shown the kinds. */
   membersOf(key, port) {
     const track = this.store.tracks.get(key);
     const names = track?.names.length ? track.names : [...namesIn(port.value ?? null)];
-    const members = names.slice(0, 64).map((name) => ({curve: {key, name, form: 'value'}, kind: track?.kindOf(name) ?? kindByName(name)}));
-    return [...members.filter(({kind}) => kind === 'signal'), ...members.filter(({kind}) => kind !== 'signal')];
+    return names.slice(0, 64).map((name) => ({curve: {key, name, form: 'value'}, kind: track?.kindOf(name) ?? kindByName(name)}));
   }
 
   createMember(curve) {
@@ -68,7 +67,7 @@ export class MemberTree {
 
   updateMember(item, {curve, kind}) {
     const button = item.firstChild;
-    setAttributes(button, {'aria-pressed': this.has(curve)});
+    setAttributes(button, {'aria-pressed': this.has(curve), class: kind});
     setText(button.lastChild, {time: ' time stamp', sequence: ' sequence number'}[kind] ?? '');
   }
 

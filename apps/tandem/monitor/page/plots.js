@@ -85,24 +85,26 @@ class PlotCard {
     return label;
   }
 
+  get values() { return this.plot.curves.filter(({form}) => form === 'value'); }
+
   /** Adds a curve computed from those of the plot. */
   formControl() {
-    const label = make('label', '', 'add '), select = make('select');
-    const fill = () => {
-      const curves = this.plot.curves.filter(({form}) => form === 'value'), name = (curve) => labelOf(curve, false);
-      select.replaceChildren(option('', 'derived curve ...'), ...curves.flatMap((curve, i) => [option(JSON.stringify([i]), `d/dt ${name(curve)}`),
-        ...curves.map((other, j) => i === j ? null : option(JSON.stringify([i, j]), `${name(curve)} − ${name(other)}`)).filter(Boolean)]));
-    };
-    fill();
-    select.addEventListener('focus', fill);
-    select.addEventListener('change', () => {
-      const curves = this.plot.curves.filter(({form}) => form === 'value'), [i, j] = JSON.parse(select.value);
-      const {key, name} = curves[i];
-      this.panel.addCurve(this, j === undefined ? {key, name, form: 'derivative'} : {key, name, form: 'difference', minus: curves[j]});
-      select.value = '';
+    const label = make('label', '', 'add ');
+    this.forms = make('select');
+    this.forms.addEventListener('change', () => {
+      const [i, j] = JSON.parse(this.forms.value), {key, name} = this.values[i];
+      this.panel.addCurve(this, j === undefined ? {key, name, form: 'derivative'} : {key, name, form: 'difference', minus: this.values[j]});
     });
-    label.append(select);
+    label.append(this.forms);
     return label;
+  }
+
+  /** Shows the ports of the curves, and offers the curves that can be computed from them. */
+  update() {
+    const {values, plot} = this, derived = values.flatMap(({key, name}, i) => [[[i], {key, name, form: 'derivative'}],
+      ...values.map((minus, j) => [[i, j], {key, name, form: 'difference', minus}]).filter((_, j) => j !== i)]);
+    setText(this.title, [...new Set(plot.curves.map(({key}) => key.split('/').slice(2).join('/')))].join(', ') || 'empty plot');
+    this.forms.replaceChildren(option('', 'derived curve ...'), ...derived.map(([of, curve]) => option(JSON.stringify(of), labelOf(curve, false))));
   }
 }
 
@@ -112,7 +114,7 @@ export class PlotsPanel {
     this.tree = new MemberTree(find('member-tree'), find('member-filter'), find('member-note'), store, {
       toggle: (curve) => this.toggle(curve), has: (curve) => this.hasCurve(curve), open: (key) => this.openPort(key)});
     find('new-plot').addEventListener('click', () => this.addPlot({curves: [], seconds: 10, range: null, own: true}));
-    for (const plot of this.kept()) this.addPlot(plot);
+    for (const plot of this.kept().reverse()) this.addPlot(plot); // each is put first
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {
       for (const {view} of this.cards) view.key = ''; // the canvas has the old colours
     });
@@ -132,7 +134,7 @@ export class PlotsPanel {
     if (this.pending) keys.add(this.pending);
     this.store.follow(this, [...keys].slice(0, mostPorts));
     find('plots-hint').hidden = this.cards.length > 0;
-    for (const {title, plot} of this.cards) setText(title, [...new Set(plot.curves.map(({key}) => key.split('/').slice(2).join('/')))].join(', ') || 'empty plot');
+    for (const card of this.cards) card.update();
   }
 
   addPlot(plot) {

@@ -5,11 +5,13 @@
 #include "apps/tandem/observe/message_json.hpp"
 #include "apps/tandem/record/cdr_message.hpp"
 #include "proxy/wire/time.hpp"
+#include "shm/os/clock.hpp"
 #include "shm/os/error.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <stdexcept>
@@ -20,19 +22,10 @@ namespace {
 /// 25 times a second. A look takes a quarter of the time between two at most, so that the monitor keeps serving pages.
 constexpr std::chrono::milliseconds look_pause{40};
 constexpr RoundBounds look_bounds{std::size_t{8} << 20, 10'000'000};
-/// A stamp further away from the time of reading is not of this machine's clock.
+/// A time further away from that of reading is not of the same clock.
 constexpr double believable_ms = 2000;
 
 double to_ms(std::uint64_t ns) { return static_cast<double>(ns) / 1e6; }
-
-/// Returns the sender's time if it is believable, else the time of reading; always later than the last sample's.
-double time_of(const shm::FollowedRecord& record, double last_ms) {
-    const double now_ms = to_ms(command::wall_clock_ns());
-    const double sent_ms =
-        1e3 * wire::stamp_seconds(record.stamp) + wire::stamp_nanoseconds(record.stamp) / 1e6;
-    const double time = std::abs(sent_ms - now_ms) < believable_ms ? sent_ms : now_ms;
-    return std::max(time, last_ms + 0.001);
-}
 
 std::string chunk_head(const SamplePort& port, const std::vector<std::string>& names) {
     const nlohmann::json head{
@@ -50,6 +43,29 @@ std::string row(std::uint64_t sequence, double time_ms, const std::vector<double
 }
 
 } // namespace
+
+SampleClock::SampleClock() : monotonic_offset_ms_(to_ms(command::wall_clock_ns()) - to_ms(shm::now_ns())) {}
+
+/// The sender's clock may be that of this machine, its monotonic clock, or another one that runs as fast; the first
+/// message tells how far that one is off. Without a useful stamp, the time of reading counts.
+double SampleClock::time_of(std::uint64_t stamp) {
+    const double wall_ms = to_ms(command::wall_clock_ns());
+    const double sent_ms = 1e3 * wire::stamp_seconds(stamp) + wire::stamp_nanoseconds(stamp) / 1e6;
+    const auto is_near = [&](double offset_ms) {
+        return std::abs(sent_ms + offset_ms - wall_ms) < believable_ms;
+    };
+    double time = wall_ms;
+    if (sent_ms > last_sent_ms_) {
+        for (const double offset_ms : {0.0, monotonic_offset_ms_, offset_ms_})
+            if (is_near(offset_ms)) {
+                time = sent_ms + offset_ms;
+                break;
+            }
+        if (time == wall_ms) offset_ms_ = wall_ms - sent_ms;
+    }
+    last_sent_ms_ = sent_ms;
+    return last_ = std::max(time, last_ + 0.001);
+}
 
 void SampleFeed::add(SampleClient& client) {
     clients_.insert(&client);
@@ -113,8 +129,8 @@ void SampleFeed::add_sample(const SamplePort& port, Followed& followed, const co
         const bool begins = followed.chunks.empty() || names != followed.names;
         if (begins) followed.chunks += (followed.chunks.empty() ? "" : "]},") + chunk_head(port, names);
         followed.names = names;
-        followed.last_time = time_of(record, followed.last_time);
-        followed.chunks += (begins ? "" : ",") + row(record.sequence, followed.last_time, values);
+        followed.chunks +=
+            (begins ? "" : ",") + row(record.sequence, followed.clock.time_of(record.stamp), values);
     } catch (const std::runtime_error&) { // untrusted bytes of another process: the state says so
     }
 }

@@ -25,6 +25,19 @@ struct SamplePort {
     auto operator<=>(const SamplePort&) const = default;
 };
 
+/// Finds the times of a port's messages on the clock of this machine. [one thread]
+class SampleClock {
+  public:
+    SampleClock();
+    /// Returns the time of a message in ms since the epoch, later than that of the message before. `stamp`: see
+    /// wire::pack_time().
+    double time_of(std::uint64_t stamp);
+
+  private:
+    double monotonic_offset_ms_; ///< from CLOCK_MONOTONIC to CLOCK_REALTIME
+    double offset_ms_ = 0, last_sent_ms_ = 0, last_ = 0;
+};
+
 /// Receives the samples of the ports that it follows. [one thread]
 class SampleClient {
   public:
@@ -55,7 +68,7 @@ class SampleFeed {
         explicit Followed(const SamplePort& port) : follower(port.link, {port.name}) {}
         command::LinkFollower follower;
         std::vector<std::string> names; ///< of the numbers in the last chunk
-        double last_time = 0;           ///< of the last sample, in ms
+        SampleClock clock;
         std::string chunks;
     };
 

@@ -3,7 +3,9 @@
 #include "http_client.hpp"
 
 #include "apps/tandem/monitor/samples/message_numbers.hpp"
-#include "apps/tandem/monitor/samples/sample_session.hpp"
+#include "apps/tandem/monitor/samples/sample_feed.hpp"
+#include "apps/tandem/record/cdr_message.hpp"
+#include "proxy/wire/time.hpp"
 #include "shm/ring/ring_reader.hpp"
 #include "shm/ring/ring_writer.hpp"
 
@@ -68,6 +70,23 @@ TEST_CASE("the numbers of a message have the names of their members") {
     const nlohmann::ordered_json long_list = std::vector<int>(1000, 1);
     CHECK(tandem::monitor::numbers_of(long_list).names.size() ==
           tandem::monitor::MessageNumbers::max_numbers);
+}
+
+TEST_CASE("the times of messages are the sender's, whatever its clock shows") {
+    using tandem::wire::pack_time;
+    const double wall_ms = static_cast<double>(tandem::command::wall_clock_ns()) / 1e6;
+    const auto seconds = [](std::uint64_t ns) { return static_cast<std::uint32_t>(ns / 1'000'000'000); };
+    for (const std::uint32_t start : {seconds(tandem::command::wall_clock_ns()), seconds(now_ns()), 7U}) {
+        tandem::monitor::SampleClock clock;
+        const double first = clock.time_of(pack_time(start, 0));
+        CHECK(std::abs(first - wall_ms) < 4000);
+        for (int i = 1; i < 50; ++i)
+            CHECK(clock.time_of(pack_time(start, i * 10'000'000)) == Approx(first + 10.0 * i).margin(0.5));
+    }
+    tandem::monitor::SampleClock clock; // without stamps
+    const double first = clock.time_of(0);
+    CHECK(std::abs(first - wall_ms) < 4000);
+    CHECK(clock.time_of(0) > first);
 }
 
 TEST_CASE("a plot gets every message, with its number and a time that increases") {
