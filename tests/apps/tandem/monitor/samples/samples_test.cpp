@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The messages of ports as the page plots them: all of them, not only the newest of each state.
-#include "http_client.hpp"
+#include "tests/apps/tandem/monitor/http_client.hpp"
 
 #include "apps/tandem/monitor/samples/message_numbers.hpp"
 #include "apps/tandem/monitor/samples/sample_feed.hpp"
