@@ -220,6 +220,7 @@ export class Graph {
   updatePort(group, port) {
     const {x, y} = this.drawing.places.get(port.id);
     const [dot, text, title] = group.children;
+    if (port.key || port.filter) setAttributes(group, {'aria-label': port.name});
     setClass(group, `port${port.mismatch ? ' mismatch' : ''}${port.key && port.key === this.chosen ? ' chosen' : ''}`);
     setAttributes(dot, {cx: x, cy: y});
     const left = port.side === 'first';
