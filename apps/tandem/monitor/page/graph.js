@@ -173,7 +173,8 @@ export class Graph {
   }
 
   updateHost(box, host) {
-    this.updateBox(box, host, `host ${host.state}`, [host.title, `${sideSigns[host.state] ?? '?'} ${host.state}${host.pid ? `, pid ${host.pid}` : ''}`]);
+    const word = host.state !== 'dead' && host.state !== 'gone' ? host.state : host.ended ? 'ended in order' : 'died';
+    this.updateBox(box, host, `host ${host.state}`, [host.title, `${sideSigns[host.state] ?? '?'} ${word}${host.pid ? `, pid ${host.pid}` : ''}`]);
   }
 
   updateComponent(box, component) {

@@ -37,10 +37,10 @@ class Builder {
   unreadable = [];
 
   host(link, side) {
-    const id = hostId(link, side), {model, state, pid, pid_in_other_namespace: inner, program} = link.sides[side];
+    const id = hostId(link, side), {model, state, pid, pid_in_other_namespace: inner, program, ended_in_order: ended} = link.sides[side];
     // A link of a process with itself belongs to a program that shows values, not to a model.
     const itself = link.sides.first.pid !== 0 && link.sides.first.pid === link.sides.second.pid;
-    if (!this.hosts.has(id)) this.hosts.set(id, {id, state, pid: pid || (inner ? `${inner} of another namespace` : 0), title: itself ? program || 'program' : `${model} host ${program}`.trim(), components: new Map()});
+    if (!this.hosts.has(id)) this.hosts.set(id, {id, state, ended, pid: pid || (inner ? `${inner} of another namespace` : 0), title: itself ? program || 'program' : `${model} host ${program}`.trim(), components: new Map()});
     return this.hosts.get(id);
   }
 
