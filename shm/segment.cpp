@@ -19,6 +19,7 @@ void Segment::leave() {
     const int fd = life_lock_->get();
     // If the hand-over byte is not available (its holder was stopped), the file is left to remove_dead().
     const HandOverLock hand_over(fd);
+    mapping_->side_header(side()).left.store(1, std::memory_order_relaxed);
     unlock(fd, life_byte(side()));
     if (hand_over.held() && !side_lives(fd, other(side())) && still_named(fd)) ::unlink(path().c_str());
     announce_change(fd);

@@ -51,20 +51,26 @@ file(WRITE ${doc}/changelog.Debian "tandem (${CPACK_PACKAGE_VERSION}-${CPACK_DEB
 file(COPY_FILE ${CPACK_TANDEM_SOURCE}/CHANGELOG.md ${doc}/changelog)
 execute_process(COMMAND gzip -9n ${doc}/changelog ${doc}/changelog.Debian COMMAND_ERROR_IS_FATAL ANY)
 file(READ ${debian}/copyright copyright)
-set(elkjs ${stage}/usr/share/tandem/monitor/lib/LICENSE.md)
-if(EXISTS ${elkjs})
-  file(READ ${elkjs} license)
+# Adds the license of a library of the monitor's page, if npm has installed it.
+function(add_library_license file files owner short)
+  set(path ${stage}/usr/share/tandem/monitor/lib/${file})
+  if(NOT EXISTS ${path})
+    return()
+  endif()
+  file(READ ${path} license)
   string(REGEX REPLACE "\r" "" license "${license}")
   string(REGEX REPLACE "\n[ \t]*\n" "\n.\n" license "${license}")
   string(REGEX REPLACE "\n[ \t]*\n" "\n.\n" license "${license}")
   string(STRIP "${license}" license)
   string(REPLACE "\n" "\n " license "${license}")
-  string(APPEND copyright "
-Files: usr/share/tandem/monitor/lib/*
-Copyright: 2017 Ulf Rüegg, Kiel University and others
-License: EPL-2.0
+  set(copyright "${copyright}
+Files: usr/share/tandem/monitor/lib/${files}
+Copyright: ${owner}
+License: ${short}
  ${license}
-")
-  file(REMOVE ${elkjs})
-endif()
+" PARENT_SCOPE)
+  file(REMOVE ${path})
+endfunction()
+add_library_license(LICENSE.md elk* "2017 Ulf Rüegg, Kiel University and others" EPL-2.0)
+add_library_license(uPlot-LICENSE uPlot* "2022 Leon Sorokin" Expat)
 file(WRITE ${doc}/copyright "${copyright}")

@@ -126,6 +126,7 @@ void read_side(const ReadOnlySnapshot& file, ObservedSegment& view, Side which) 
             side);
     side.joined_ns = copy.get<std::uint64_t>(offsetof(SideHeader, joined_ns));
     side.published = copy.get<std::uint32_t>(offsetof(SideHeader, published)) != 0;
+    side.left = copy.get<std::uint32_t>(offsetof(SideHeader, left)) != 0;
     side.state = copy.get<std::uint32_t>(offsetof(SideHeader, taken)) == 0 ? PeerState::absent
                  : !side.held                                              ? PeerState::dead
                  : side.pid != 0 && is_stopped(side.pid)                   ? PeerState::stopped
@@ -159,6 +160,13 @@ std::shared_ptr<const ReadOnlySnapshot> open_observed(const ObservedSegment& seg
     const bool same = *file && fstat(file->fd(), &opened) == 0 && opened.st_dev == segment.device &&
                       opened.st_ino == segment.inode;
     return same ? file : nullptr;
+}
+
+bool has_left(const ReadOnlySnapshot& file, Side side) {
+    using layout::SideHeader;
+    Snapshot<SideHeader, offsetof(SideHeader, directory)> copy;
+    return file.read(sizeof(layout::SegmentHeader) + index_of(side) * sizeof(SideHeader), copy) &&
+           copy.get<std::uint32_t>(offsetof(SideHeader, left)) != 0;
 }
 
 std::vector<ObservedSegment> observe_segments(std::size_t* left_out) {

@@ -20,7 +20,8 @@ class Comparison {
     void came(const LinkState& link) {
         add(link, false, fmt::format("the link exists, generation {}", link.generation));
         for (const Side side : {Side::first, Side::second})
-            if (link.side(side).state == PeerState::dead) add_side(link, side, true, "was already dead");
+            if (const SideState& host = link.side(side); host.state == PeerState::dead)
+                add_host(link, side, host, !host.left, host.left ? "had already ended" : "was already dead");
     }
     void gone(const LinkState& link) {
         add(link, false, "the link no longer exists: its segment was removed");
@@ -30,7 +31,12 @@ class Comparison {
         if (before.readable && !after.readable) add(after, true, "cannot be read: " + after.reason);
         if (!before.readable || !after.readable) return;
         const bool same = before.generation == after.generation && before.created_ns == after.created_ns;
-        if (!same) add(after, false, fmt::format("new generation {}", after.generation));
+        if (!same)
+            add(after, false,
+                after.generation > before.generation
+                    ? fmt::format("the link continues as generation {}; its counters start at zero",
+                                  after.generation)
+                    : "the link was created again; its counters start at zero");
         for (const Side side : {Side::first, Side::second}) compare_side(before, after, side);
         if (!same) return; // counters start at zero
         compare_ports(before, after);
@@ -111,19 +117,23 @@ class Comparison {
     }
     void compare_side(const LinkState& before, const LinkState& after, Side side) {
         const SideState &was = before.side(side), &is = after.side(side);
-        const bool other_process = !was.is_process_of(is);
-        if (is.gone && !was.gone && was.state != PeerState::dead)
-            return add_side(after, side, true, "is gone: it died or was stopped");
+        const bool other_process = !was.is_process_of(is), was_there = was.state != PeerState::absent;
+        const auto tell = [&](bool bad, const char* what) { add_host(after, side, is, bad, what); };
+        if (is.state == PeerState::dead || is.gone) {
+            if (was_there && was.state != PeerState::dead) add_end(after, side, is, is.left);
+            return;
+        }
         if (was.state == is.state && !other_process) return;
-        if (is.state == PeerState::dead && was.state != PeerState::dead)
-            add_side(after, side, true, "has died");
-        else if (is.state == PeerState::stopped)
-            add_side(after, side, true, "is stopped");
+        if (was_there && was.state != PeerState::dead && other_process)
+            add_end(after, side, was, is.previous_left); // its successor came before the monitor looked
+        if (is.state == PeerState::stopped)
+            tell(true, "is stopped");
         else if (is.state == PeerState::alive && was.state == PeerState::stopped && !other_process)
-            add_side(after, side, false, "continues");
+            tell(false, "continues");
         else if (is.state == PeerState::alive)
-            add_side(after, side, false,
-                     was.state == PeerState::absent && !was.gone ? "has joined" : "has returned");
+            tell(false, !was.has_process() ? "has joined"
+                        : other_process    ? "has started again"
+                                           : "has joined again");
     }
 
     void compare_ports(const LinkState& before, const LinkState& after) {
@@ -154,8 +164,10 @@ class Comparison {
                         fmt::format("calls of the {} host start failing", model_of(after, queue.callers)));
     }
 
-    void add_side(const LinkState& link, Side side, bool bad, const char* what) {
-        const SideState& host = link.side(side);
+    void add_end(const LinkState& link, Side side, const SideState& host, bool in_order) {
+        add_host(link, side, host, !in_order, in_order ? "has ended in order" : "has died");
+    }
+    void add_host(const LinkState& link, Side side, const SideState& host, bool bad, const char* what) {
         add(link, bad,
             fmt::format("the {} host{} ({}) {}", model_of(link, side),
                         host.program.empty() ? "" : " " + host.program,

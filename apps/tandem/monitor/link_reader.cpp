@@ -5,6 +5,7 @@
 #include "proxy/link/protocol/link_error.hpp"
 #include "proxy/link/protocol/published_table.hpp"
 #include "proxy/link/session/link_session.hpp"
+#include "shm/inspect/read_only_snapshot.hpp"
 
 #include <fmt/format.h>
 
@@ -128,16 +129,23 @@ void LinkReader::keep(shm::Observation observation, std::uint64_t now_ns) {
     if (!observation.blobs.empty()) shared_ports_ = shared_ports(observation, damage_);
     models_ = command::find_models(observation, {});
     observation.blobs.clear(); // the follower has read the tables of data ports
-    if (!samples_.empty()) {
-        const auto &before = newest().seen.segment, &now = observation.segment;
-        if (before.generation != now.generation || before.created_ns != now.created_ns ||
-            now.readability != shm::Readability::readable) {
-            samples_.clear();
-            messages_.clear();
-        }
+    const auto& now = observation.segment;
+    const bool same = !samples_.empty() && newest().seen.segment.generation == now.generation &&
+                      newest().seen.segment.created_ns == now.created_ns;
+    if (!same) change_segment(now);
+    if (!same || now.readability != shm::Readability::readable) {
+        samples_.clear();
+        messages_.clear();
     }
     samples_.push_back({now_ns, std::move(observation)});
     while (samples_.size() > 2 && now_ns - samples_[1].time_ns >= recent_ns) samples_.pop_front();
+}
+
+/// Finds out from the old segment how the processes of its sides have ended, and opens the next one.
+void LinkReader::change_segment(const shm::ObservedSegment& to) {
+    for (const Side which : {Side::first, Side::second})
+        if (file_ != nullptr && shm::has_left(*file_, which)) last_sides_[shm::index_of(which)].left = true;
+    file_ = to.readability == shm::Readability::readable ? shm::open_observed(to) : nullptr;
 }
 
 LinkState LinkReader::read(shm::Observation observation, std::uint64_t now_ns, Round& round) {
@@ -176,10 +184,12 @@ void LinkReader::read_sides(LinkState& link) {
             continue;
         }
         side.unpublished = !observed.published;
+        side.left = observed.left;
         side.pid = observed.pid;
         side.pid_elsewhere = observed.pid_elsewhere;
         const std::string& model = models_[shm::index_of(which)];
         side.model = model.empty() && last.is_process_of(side) ? last.model : replace_nonprintable(model);
+        side.previous_left = last.is_process_of(side) ? last.previous_left : last.left;
         // A dead process's pid may already belong to another program, as does a pid of another namespace.
         const bool visible = side.state != shm::PeerState::dead && side.pid != 0;
         side.program = last.is_process_of(side) && !last.program.empty() ? last.program

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -39,6 +40,7 @@ class LinkReader {
     };
 
     void keep(shm::Observation observation, std::uint64_t now_ns);
+    void change_segment(const shm::ObservedSegment& to);
     void read_sides(LinkState& link);
     void read_messages(Round& round);
     void read_rings(LinkState& link, const Round& round);
@@ -58,6 +60,7 @@ class LinkReader {
     std::string damage_;     ///< of the newest observation, see LinkState::damage
     command::Models models_; ///< in the newest observation
     SideState last_sides_[2];
+    std::shared_ptr<const shm::ReadOnlySnapshot> file_; ///< says how the sides of the segment have ended
 };
 
 } // namespace tandem::monitor

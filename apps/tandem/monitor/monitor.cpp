@@ -3,6 +3,7 @@
 #include "apps/tandem/monitor/control/control.hpp"
 #include "apps/tandem/monitor/foxglove/channels.hpp"
 #include "apps/tandem/monitor/metrics.hpp"
+#include "apps/tandem/monitor/samples/sample_feed.hpp"
 #include "apps/tandem/monitor/state_json.hpp"
 #include "apps/tandem/monitor/state_reader.hpp"
 #include "apps/tandem/monitor/web/server.hpp"
@@ -38,8 +39,9 @@ class Monitor {
           server_(context, options.bind, options.port, service),
           channels_(
               context, [this]() -> const State& { return state_; }, &stop),
-          timer_(context) {
+          samples_(context, &stop), timer_(context) {
         service.channels = &channels_;
+        service.samples = &samples_;
         service.session_id = std::to_string(std::time(nullptr));
         service.other_origins = {options.other_origins.begin(), options.other_origins.end()};
         service.hosts = AllowedHosts(options.allowed_hosts);
@@ -51,6 +53,13 @@ class Monitor {
         }
         look();
     }
+    /// The sessions live until the end of the context.
+    ~Monitor() {
+        service_.channels = nullptr;
+        service_.samples = nullptr;
+    }
+    Monitor(const Monitor&) = delete;
+    Monitor& operator=(const Monitor&) = delete;
     /// Returns the page's address, with the token if there is one.
     std::string url() const { return server_.url() + (control_ ? "#token=" + control_->token() : ""); }
 
@@ -82,6 +91,7 @@ class Monitor {
     std::optional<Control> control_;
     Server server_;
     Channels channels_;
+    SampleFeed samples_;
     boost::asio::steady_timer timer_;
 };
 

@@ -22,6 +22,7 @@ Json side_json(const LinkState& link, Side which) {
     const SideState& side = link.side(which);
     return {{"model", model_of(link, which)},
             {"state", side.gone ? "gone" : command::to_string(side.state)},
+            {"ended_in_order", side.left},
             {"pid", side.pid},
             {"pid_in_other_namespace", side.pid_elsewhere},
             {"program", side.program}};
@@ -137,6 +138,15 @@ void add_host_reports(const State& state, Json& json) {
                                    {"text", notice.text}});
 }
 
+Json worst_json(const Verdict& verdict) {
+    Json worst = Json::array();
+    for (const Finding& finding : verdict.worst)
+        worst.push_back({{"level", name_of(finding.level)},
+                         {"text", text_of(finding.level)},
+                         {"reason", finding.reason}});
+    return worst;
+}
+
 } // namespace
 
 std::string state_json(const State& state, const Verdict& verdict, const std::deque<Event>& events,
@@ -147,7 +157,8 @@ std::string state_json(const State& state, const Verdict& verdict, const std::de
                {{"level", name_of(verdict.level)},
                 {"text", verdict.text},
                 {"reason", verdict.reason},
-                {"findings", verdict.findings}}},
+                {"findings", verdict.findings},
+                {"worst", worst_json(verdict)}}},
               {"cut", state.cut},
               {"control", control},
               {"links", Json::array()},

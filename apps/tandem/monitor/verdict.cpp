@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <ctime>
 
 namespace tandem::monitor {
@@ -29,23 +30,30 @@ constexpr struct {
                    {"unreadable", "A link cannot be read"},
                    {"failed", "A component has failed"},
                    {"stopped", "A host is stopped"},
-                   {"gone", "A host is gone"},
+                   {"gone", "A host has ended"},
                    {"dead", "A host has died"},
                    {"hanging", "A component hangs"}};
 
-/// Keeps the worst finding. Of several findings of one level, keeps the first.
+/// Counts the findings and keeps the worst ones, in order.
 class Findings {
   public:
     void add(Level level, std::string reason) {
-        ++worst_.findings;
-        if (level <= worst_.level) return;
-        worst_.level = level;
-        worst_.reason = std::move(reason);
+        ++verdict_.findings;
+        auto& worst = verdict_.worst;
+        const auto milder = std::find_if(worst.begin(), worst.end(),
+                                         [&](const Finding& finding) { return finding.level < level; });
+        worst.insert(milder, {level, std::move(reason)});
+        if (worst.size() > Verdict::max_worst) worst.pop_back();
     }
-    Verdict worst() && { return std::move(worst_); }
+    Verdict verdict() && {
+        if (!verdict_.worst.empty()) verdict_.level = verdict_.worst.front().level;
+        if (!verdict_.worst.empty()) verdict_.reason = verdict_.worst.front().reason;
+        verdict_.text = text_of(verdict_.level);
+        return std::move(verdict_);
+    }
 
   private:
-    Verdict worst_;
+    Verdict verdict_;
 };
 
 std::string host_of(const LinkState& link, Side side) {
@@ -55,12 +63,19 @@ std::string host_of(const LinkState& link, Side side) {
         host.has_process() ? fmt::format(" ({})", command::format_pid(host.pid, host.pid_elsewhere)) : "");
 }
 
+void judge_end(const LinkState& link, Side side, Findings& findings) {
+    const bool in_order = link.side(side).left;
+    findings.add(in_order ? Level::gone : Level::dead,
+                 fmt::format("link {}: {} has {}", link.name, host_of(link, side),
+                             in_order ? "ended in order" : "died"));
+}
+
 void judge_sides(const LinkState& link, Findings& findings) {
     for (const Side side : {Side::first, Side::second}) {
         const std::string host = host_of(link, side);
         switch (link.side(side).state) {
         case PeerState::dead:
-            findings.add(Level::dead, fmt::format("link {}: {} has died", link.name, host));
+            judge_end(link, side, findings);
             break;
         case PeerState::stopped:
             findings.add(Level::stopped,
@@ -68,7 +83,7 @@ void judge_sides(const LinkState& link, Findings& findings) {
             break;
         case PeerState::absent:
             if (link.side(side).gone)
-                findings.add(Level::gone, fmt::format("link {}: {} died or was stopped", link.name, host));
+                judge_end(link, side, findings);
             else
                 findings.add(Level::waiting, fmt::format("link {}: the peer of the {} host has not joined",
                                                          link.name, model_of(link, other(side))));
@@ -190,6 +205,7 @@ void judge_tick(const TickState& tick, Findings& findings) {
 } // namespace
 
 const char* name_of(Level level) { return level_names[static_cast<std::size_t>(level)].name; }
+const char* text_of(Level level) { return level_names[static_cast<std::size_t>(level)].text; }
 
 std::string describe_hang(const TickState& tick) {
     const HangState& hang = *tick.hang;
@@ -228,8 +244,7 @@ Verdict judge(const State& state) {
     judge_hosts(state, findings);
     judge_look(state, findings);
     if (seen == 0 && !state.links.empty()) findings.add(Level::no_link, "all links belong to other users");
-    Verdict verdict = std::move(findings).worst();
-    verdict.text = level_names[static_cast<std::size_t>(verdict.level)].text;
+    Verdict verdict = std::move(findings).verdict();
     if (verdict.level == Level::well)
         verdict.reason = fmt::format("{} {}: both hosts alive, nothing lost or late in the last {:.0f} s",
                                      seen, seen == 1 ? "link" : "links", recent_s);

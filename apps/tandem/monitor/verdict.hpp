@@ -3,6 +3,7 @@
 #include "apps/tandem/monitor/state.hpp"
 
 #include <string>
+#include <vector>
 
 namespace tandem::monitor {
 
@@ -31,11 +32,21 @@ enum class Level {
 const char* name_of(Level level); ///< name in the JSON: `well`, `no_link` ...
 inline constexpr Level worst_level = Level::hanging;
 
+/// Returns what a level means, in a few words.
+const char* text_of(Level level);
+
+struct Finding {
+    Level level{};
+    std::string reason; ///< one line: place and amount
+};
+
 struct Verdict {
+    static constexpr std::size_t max_worst = 20;
     Level level = Level::well;
-    std::string text;         ///< the verdict in a few words
-    std::string reason;       ///< one line: place and amount
-    std::size_t findings = 0; ///< of all levels; only the worst is described
+    std::string text;             ///< the verdict in a few words
+    std::string reason;           ///< of the worst finding
+    std::size_t findings = 0;     ///< of all levels
+    std::vector<Finding> worst{}; ///< from bad to good; of one level, in the order of the links
 };
 
 /// Shares of a component's recent ticks that overrun. From the first share, the component is late; from the second, it

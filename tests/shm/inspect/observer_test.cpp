@@ -209,6 +209,7 @@ TEST_CASE("an observer distinguishes absent, alive, stopped and dead sides") {
         CHECK(eventually([&] { return state() == PeerState::alive; }));
         stopped.kill_now();
         CHECK(state() == PeerState::dead);
+        CHECK_FALSE(observed(link).segment.side(Side::second).left);
     }
     first.reset(); // the generation of a dead side is never joined again
     first = join(link, Side::first);
@@ -216,8 +217,10 @@ TEST_CASE("an observer distinguishes absent, alive, stopped and dead sides") {
     first->leave();
     const auto seen = observed(link);
     CHECK(seen.segment.side(Side::first).state == PeerState::dead);
+    CHECK(seen.segment.side(Side::first).left);
     CHECK_FALSE(seen.segment.side(Side::first).held);
     CHECK(seen.segment.side(Side::second).held);
+    CHECK_FALSE(seen.segment.side(Side::second).left);
 }
 
 TEST_CASE("an observer finds the newest or the requested generation") {

@@ -77,8 +77,9 @@ std::string stick_socket_of(const State& state, const std::string& link_name) {
     return {};
 }
 
+/// Repeats the members by which a client recognizes the request, whatever their types.
 PlainJson answer(const PlainJson& request, bool ok, const std::string& text) {
-    return {{"op", request.value("op", "")},
+    return {{"op", request.value("op", PlainJson(""))},
             {"ok", ok},
             {"text", text},
             {"id", request.value("id", PlainJson())}};
@@ -155,9 +156,9 @@ void Control::handle(const std::string& text, const Reply& reply) {
         if (op == "drive") return drive(request, reply);
         if (op == "rtm") return run_rtm(request, reply);
         if (op == "record") return record(request, reply);
-        reply({{"op", op}, {"ok", false}, {"text", "expected op drive, rtm or record"}});
+        reply(answer(request, false, "expected op drive, rtm or record"));
     } catch (const std::exception& error) { // from JSON: a member has another type
-        reply({{"op", ""}, {"ok", false}, {"text", error.what()}});
+        reply(answer(request, false, error.what()));
     }
 }
 
@@ -169,9 +170,10 @@ void Control::drive(const PlainJson& request, const Reply& reply) {
     sockaddr_un address{};
     address.sun_family = AF_UNIX;
     path.copy(address.sun_path, sizeof address.sun_path - 1);
-    if (sendto(stick_socket_.get(), command, sizeof command, 0, reinterpret_cast<const sockaddr*>(&address),
-               sizeof address) < 0)
-        reply(answer(request, false, fmt::format("{}: {}", path, std::strerror(errno))));
+    const bool sent = sendto(stick_socket_.get(), command, sizeof command, 0,
+                             reinterpret_cast<const sockaddr*>(&address), sizeof address) >= 0;
+    if (!sent) return reply(answer(request, false, fmt::format("{}: {}", path, std::strerror(errno))));
+    if (request.contains("id")) reply(answer(request, true, "sent"));
 }
 
 void Control::run_rtm(const PlainJson& request, const Reply& reply) {

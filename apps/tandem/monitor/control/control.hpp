@@ -58,7 +58,8 @@ class Control {
     /// Compares in constant time.
     bool is_token(std::string_view text) const;
 
-    /// Executes a JSON request. Calls `reply` once, now or later; for a stick position only if it could not be sent.
+    /// Executes a JSON request. Calls `reply` once, now or later; for a stick position without an id only if it could not
+    /// be sent. Each reply has the request's id.
     void handle(const std::string& text, const Reply& reply);
 
     /// For clients of foxglove.websocket.v1. Two programs, so that a long call does not delay messages.

@@ -41,7 +41,9 @@ FoxgloveSession::FoxgloveSession(boost::beast::tcp_stream stream, Service& servi
     set_subprotocol(foxglove_protocol);
 }
 
-FoxgloveSession::~FoxgloveSession() { service_.channels->remove(*this); }
+FoxgloveSession::~FoxgloveSession() {
+    if (service_.channels != nullptr) service_.channels->remove(*this);
+}
 
 void FoxgloveSession::on_open(const Request& request) {
     PlainJson info{{"op", "serverInfo"},

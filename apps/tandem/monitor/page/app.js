@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Receives the state five times a second and shows it. docs/monitoring.md describes the JSON.
-import {Chair} from './chair.js';
-import {ControlPanel} from './control.js';
+import {Chair, findChair} from './chair.js';
+import {Connection, ControlPanel} from './control.js';
 import {KeyedList, make, setClass, setText} from './dom.js';
 import {Graph} from './graph.js';
+import {PlotsPanel} from './plots.js';
+import {SampleStore} from './samples.js';
 import {requestState, socketAddress} from './server.js';
 import {CallTable, PortTable} from './tables.js';
+import {Tabs} from './tabs.js';
 import {TickTable} from './ticks.js';
 import {Values} from './values.js';
 
@@ -15,22 +18,31 @@ const find = (id) => document.getElementById(id);
 const signs = {well: '✓', unseen: '?', setting: '≠', inactive: '○', missing: '○', unrecorded: '✕', failed: '✕', no_link: '○', mismatch: '≠', waiting: '…', late: '◷', dropping: '▼', overrun: '↻', unreadable: '?', stopped: '❚❚', gone: '✕', dead: '✕', hanging: '!'};
 
 let newest = null;
-const values = new Values(), control = new ControlPanel(), chair = new Chair(control.connection);
+const connection = new Connection(), control = new ControlPanel(connection), store = new SampleStore();
+const values = new Values(), plots = new PlotsPanel(store), chair = new Chair(connection, store);
 
-/** Selects a port. The page's address contains it, so that it survives a reload and works as a bookmark. */
+/** The address of the page contains the shown view or the chosen port, so that it survives a reload and works as a bookmark. */
+function keepPlace(place) {
+  if (place !== decodeURIComponent(location.hash.slice(1))) history.replaceState(null, '', `#${encodeURIComponent(place)}`);
+}
+
+/** Plots a port. */
 function choose(key) {
-  if (key !== decodeURIComponent(location.hash.slice(1))) history.replaceState(null, '', `#${encodeURIComponent(key)}`);
+  tabs.show('plots-section');
+  keepPlace(key);
   graph.chosen = ports.chosen = key;
   values.choose(key);
+  plots.openPort(key);
   if (newest !== null) show(newest);
 }
+
 /** Shows a component's ports in the table. */
 function filterPorts(text) {
   find('filter').value = text;
-  ports.show(newest.links);
-  find('links-section').scrollIntoView();
+  tabs.show('links-section');
   find('filter').focus({preventScroll: true});
 }
+
 const graph = new Graph(find('graph'), find('graph-note'), choose, filterPorts);
 const ports = new PortTable(choose);
 const ticks = new TickTable(), calls = new CallTable();
@@ -43,6 +55,12 @@ const events = new KeyedList(find('events'), (event) => {
   return item;
 }, () => {});
 
+const findings = new KeyedList(find('findings').querySelector('ol'), () => make('li'), (item, {text, reason}) => {
+  if (item.children.length === 0) item.append(make('b'), ' ', make('span'));
+  setText(item.firstChild, text);
+  setText(item.lastChild, reason);
+});
+
 let spoken = '';
 
 function showVerdict(verdict) {
@@ -50,8 +68,11 @@ function showVerdict(verdict) {
   setClass(section, verdict.level);
   setText(section.querySelector('.sign'), signs[verdict.level] ?? '?');
   setText(section.querySelector('.text'), verdict.text);
-  const more = verdict.findings > 1 ? `; ${verdict.findings - 1} more` : '';
-  setText(section.querySelector('.reason'), verdict.reason + more);
+  setText(section.querySelector('.reason'), verdict.reason);
+  const more = verdict.findings - 1, listed = (verdict.worst ?? []).slice(1);
+  find('findings').hidden = more < 1 || listed.length === 0;
+  setText(find('findings').firstElementChild, `${more} more${more > listed.length ? `, of which the worst ${listed.length} are listed` : ''}`);
+  findings.show(listed.map((finding, i) => ({...finding, i})), ({i}) => i);
   // Announced on a change of level, not on each change of a count in the reason.
   if (spoken !== verdict.level) setText(find('spoken'), `${verdict.text}: ${verdict.reason}`);
   spoken = verdict.level;
@@ -61,20 +82,36 @@ function showVerdict(verdict) {
 
 let isConnected = false;
 
+/** What each view shows of the state. Views that are not shown cost nothing. */
+const views = {
+  'graph-section': (state) => graph.show(state),
+  'plots-section': (state) => { plots.show(state); values.show(state); },
+  'links-section': (state) => { ports.show(state.links); calls.show(state.links); },
+  'ticks-section': (state) => ticks.show(state),
+  'events-section': (state) => {
+    events.show([...state.events].reverse(), (event) => `${event.number} ${event.time_ms}`);
+    find('events-empty').hidden = state.events.length > 0;
+  },
+};
+const tabs = new Tabs(find('views'), (id) => {
+  keepPlace(id === 'plots-section' && values.key ? values.key : id);
+  if (id !== 'plots-section') plots.hide();
+  if (id !== 'chair-section') chair.hide();
+  if (newest !== null) show(newest);
+});
+
 function show(state) {
   newest = state;
   setText(find('cut'), state.cut);
   find('cut').hidden = state.cut === '';
   if (isConnected) showVerdict(state.verdict); // a port can be selected in the last state while disconnected
-  graph.show(state.links, state.refused_connections);
-  ports.show(state.links);
-  calls.show(state.links);
-  ticks.show(state.ticks);
-  values.show(state);
+  tabs.offer('chair-section', findChair(state) !== null || chair.link !== null);
+  tabs.offer('control-section', state.control.allowed);
+  const failures = state.events.filter((event) => event.bad).length;
+  setText(find('events-count'), failures > 0 ? `✕ ${failures}` : '');
   chair.show(state);
   control.show(state);
-  events.show([...state.events].reverse(), (event) => `${event.number} ${event.time_ms}`);
-  find('events-empty').hidden = state.events.length > 0;
+  views[tabs.current]?.(state);
 }
 
 /** Shows the connection's state. Marks the shown state as outdated if the connection is lost. */
@@ -131,5 +168,6 @@ find('filter').addEventListener('input', () => {
   if (newest !== null) ports.show(newest.links);
 });
 const wanted = decodeURIComponent(location.hash.slice(1));
-if (wanted.includes('/')) choose(wanted); // others are sections
+if (wanted.includes('/')) choose(wanted);
+else tabs.show(wanted);
 connect();

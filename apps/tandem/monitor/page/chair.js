@@ -2,14 +2,27 @@
 // Draws the wheelchair from above, from the port `chair` of the program `wheelchair`. docs/wheelchair.md describes the
 // geometry: metres and degrees, x to the right, y up, angles to the left.
 import {makeSvg, number, setAttributes, setClass, setText} from './dom.js';
-import {Plot} from './plot.js';
+import {EmergencyStop} from './emergency.js';
+import {PlotView, loadPlots} from './plot_view.js';
 import {Stick} from './stick.js';
+import {keyOfPort} from './tables.js';
 
 const find = (id) => document.getElementById(id);
 const track = 0.57, wheelbase = 0.5, radius = 0.17; // of drive wheels and casters, m
 const mostPoints = 3000;
 const fastest = 12; // rad/s of a wheel at the end of its bar: 2 m/s
-const states = ['drives', 'stopped, since a reference was late: release the stick', 'emergency stop', 'fault'];
+const slowest = 0.01; // m/s; below, the chair stands
+const states = [null, 'stopped, since a reference was late: release the stick', 'emergency stop',
+  'fault: press Ctrl-C where wheelchair runs, and start it again'];
+
+/** Describes for people what the chair does. */
+function describe(chair) {
+  const speed = radius * (chair.wheel_left + chair.wheel_right) / 2;
+  const turns = radius * Math.max(Math.abs(chair.wheel_left), Math.abs(chair.wheel_right)) > slowest;
+  const what = chair.state === 0 ? turns ? 'drives' : 'stands' : states[chair.state] ?? `state ${chair.state}`;
+  return `${chair.t.toFixed(1)} s: ${what}, ${turns ? `${speed.toFixed(2)} m/s, ` : ''}brake ${chair.brake ? 'closed' : 'open'}, ` +
+    `${chair.volts_left.toFixed(1)} V left, ${chair.volts_right.toFixed(1)} V right`;
+}
 
 /** Returns the newest value of a port `chair` with its link's name; nothing if there is none. */
 export function findChair(state) {
@@ -20,11 +33,10 @@ export function findChair(state) {
 }
 
 export class Chair {
-  /** `connection`: of control.js; the stick uses it. */
-  constructor(connection) {
-    this.link = null;
-    this.path = [];
-    this.steering = new Plot(find('steering'), find('steering-legend'), 30);
+  /** `connection`: of control.js; the stick uses it. `store`: of samples.js, for the steering angle. */
+  constructor(connection, store) {
+    Object.assign(this, {link: null, path: [], store});
+    this.steering = new PlotView(find('steering'), {curves: [], seconds: 30, range: null}, store);
     const map = find('chair-map');
     this.grid = makeSvg('path', {class: 'grid'});
     this.trace = makeSvg('polyline', {class: 'trace'});
@@ -39,8 +51,11 @@ export class Chair {
     map.append(world);
     this.createStick();
     this.stick = new Stick(find('chair-stick'), [90, 92], 66, connection);
-    this.stick.onchange = (drives) => { find('drive-bar').hidden = !drives; };
-    find('emergency').addEventListener('click', () => this.stick.emergencyStop());
+    this.stick.onchange = (drives) => setText(find('drive-hint'), drives
+      ? 'Drag the stick, or use the arrow keys while it has the focus.' : 'To drive, enter the token under Control.');
+    this.emergency = new EmergencyStop(find('emergency'), find('drive-answer'), connection);
+    this.emergency.onstop = () => this.stick.release();
+    connection.driveFailed = (reason) => this.emergency.tell(true, `✕ The stick is not sent: ${reason}`);
   }
 
   createStick() {
@@ -57,25 +72,35 @@ export class Chair {
 
   show(state) {
     const chair = findChair(state);
-    find('chair-section').hidden = find('chair-anchor').hidden = chair === null && this.link === null;
     this.stick.offer(chair !== null && chair.drive ? chair.link : null);
     if (chair === null) {
       if (this.link !== null) setText(find('chair-state'), 'The wheelchair has ended.');
       return;
     }
-    if (chair.link !== this.link || (this.time ?? 0) > chair.t) { // another run
-      this.path = [];
-      this.steering.clear();
-    }
+    if (chair.link !== this.link || (this.time ?? 0) > chair.t) this.path = []; // another run
     Object.assign(this, {link: chair.link, time: chair.t});
-    const speed = radius * (chair.wheel_left + chair.wheel_right) / 2;
-    setText(find('chair-state'), `${chair.t.toFixed(1)} s: ${states[chair.state] ?? `state ${chair.state}`}` +
-      `${chair.emergency_stop ? ', emergency stop pressed' : ''}, ${speed.toFixed(2)} m/s, brake ${chair.brake ? 'closed' : 'open'}, ` +
-      `${chair.volts_left.toFixed(1)} V left, ${chair.volts_right.toFixed(1)} V right`);
+    find('drive-bar').hidden = !chair.drive || !state.control.allowed;
+    this.emergency.show(chair.link, chair);
+    setText(find('chair-state'), describe(chair));
     setClass(find('chair-state'), chair.state > 0 ? 'bar bad' : 'bar');
     this.drawMap(chair);
     this.drawStick(chair);
-    this.steering.add(state.time_ms, [['steering angle, deg', chair.steering_deg], ['reference, deg', chair.reference_deg]]);
+    if (!find('chair-section').hidden) this.drawSteering(keyOfPort({name: chair.link}, chair.port));
+  }
+
+  /** Called when another view is shown. */
+  hide() {
+    this.store.follow(this, []);
+  }
+
+  async drawSteering(key) {
+    this.steering.plot.curves = ['steering_deg', 'reference_deg'].map((name) => ({key, name, form: 'value'}));
+    this.store.follow(this, [key]);
+    try {
+      this.steering.draw(await loadPlots());
+    } catch (failure) {
+      setText(find('steering-note'), failure.message);
+    }
   }
 
   drawMap({x, y, heading_deg: heading}) {

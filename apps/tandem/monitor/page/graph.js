@@ -1,33 +1,47 @@
 // SPDX-License-Identifier: Apache-2.0
 // Draws the graph of hosts, components, ports and services. topology.js selects the contents. The library elkjs
 // computes the layout in a worker, only when parts come or go.
-import {KeyedList, makeSvg, number, setAttributes, setClass, setText} from './dom.js';
+import {KeyedList, duration, makeSvg, number, setAttributes, setClass, setText} from './dom.js';
+import {rowsOf} from './ticks.js';
 import {topologyOf} from './topology.js';
 
 /** Seconds without a message until an edge becomes grey. */
 const stale = 2;
-const letter = 7.2, boldLetter = 8.6, title = 28, row = 24, dot = 8;
+const letter = 7.2, boldLetter = 8.6, row = 24, dot = 8;
+const layerGap = 30, widestGap = 420;
 const sideSigns = {alive: '✓', stopped: '❚❚', dead: '✕', gone: '✕', absent: '…'};
 const kindSigns = {provided: '◉ ', required: '◡ ', in: '', out: ''};
+
+const stateTexts = {active: '✓ active', inactive: '○ not active', error: '✕ ERROR'};
+/** The height above a component's ports: its name, and its state if the host publishes it. */
+const headOf = (component) => component.row ? 44 : 28;
+
+/** Returns a component's state and period for people, and the class of its box. */
+function describe({mirror, row: published}) {
+  if (mirror || !published) return ['', mirror ? 'component mirror' : 'component'];
+  const {state, tick} = published, hang = tick?.hang;
+  const period = tick ? `, ${hang ? `! hangs ${duration(hang.seconds * 1e9)}` : duration(tick.period_ns)}` : '';
+  return [`${stateTexts[state] ?? '–'}${period}`, `component${hang || state === 'error' ? ' failed' : state === 'inactive' ? ' inactive' : ''}`];
+}
 
 const labelOf = (port) => `${kindSigns[port.kind]}${port.name}`;
 const widthOf = (text) => Math.ceil(text.length * letter);
 const boldWidthOf = (text) => Math.ceil(text.length * boldLetter);
 
-/** Returns the input of elkjs: first sides left, second sides right, data in both directions in between. */
-function elkGraph({hosts, edges}) {
+/** Returns the input of elkjs: first sides left, second sides right, data in both directions in between. `gap`: between layers. */
+function elkGraph({hosts, edges}, gap) {
   // elkjs makes a host as wide as its components, so these must be as wide as the host's title.
   const component = (c, host) => {
-    const width = Math.max(120, boldWidthOf(host.title), boldWidthOf(c.name) + 24, ...c.ports.map((p) => widthOf(labelOf(p)) + (p.alone ? 90 : 24)));
+    const width = Math.max(120, boldWidthOf(host.title), boldWidthOf(c.name) + 24, c.row ? widthOf(describe(c)[0]) + 24 : 0, ...c.ports.map((p) => widthOf(labelOf(p)) + (p.alone ? 90 : 24)));
     const port = (p, i) => ({id: p.id, width: dot, height: dot, x: p.side === 'first' ? width - dot / 2 : -dot / 2,
-      y: title + row * i + 5, layoutOptions: {'elk.port.side': p.side === 'first' ? 'EAST' : 'WEST'}});
-    return {id: c.id, width, height: title + 6 + row * c.ports.length, ports: c.ports.map(port),
+      y: headOf(c) + row * i + 5, layoutOptions: {'elk.port.side': p.side === 'first' ? 'EAST' : 'WEST'}});
+    return {id: c.id, width, height: headOf(c) + 6 + row * c.ports.length, ports: c.ports.map(port),
       layoutOptions: {'elk.portConstraints': 'FIXED_POS'}};
   };
   return {
     id: 'root',
     layoutOptions: {'elk.algorithm': 'layered', 'elk.direction': 'RIGHT', 'elk.hierarchyHandling': 'INCLUDE_CHILDREN',
-      'elk.layered.considerModelOrder.strategy': 'NODES_AND_EDGES', 'elk.layered.spacing.nodeNodeBetweenLayers': '30',
+      'elk.layered.considerModelOrder.strategy': 'NODES_AND_EDGES', 'elk.layered.spacing.nodeNodeBetweenLayers': String(gap),
       'elk.spacing.nodeNode': '18', 'elk.spacing.edgeLabel': '0', 'elk.spacing.labelLabel': '0', 'elk.spacing.edgeEdge': '4',
       'elk.spacing.edgeNode': '4', 'elk.spacing.labelNode': '0', 'elk.layered.nodePlacement.strategy': 'NETWORK_SIMPLEX', 'elk.padding': '[top=4,left=4,bottom=4,right=4]'},
     children: hosts.map((host) => ({id: host.id, children: host.components.map((c) => component(c, host)),
@@ -79,7 +93,7 @@ export class Graph {
       return new KeyedList(group, create, update);
     };
     this.hosts = layer(() => this.createBox(2), (box, host) => this.updateHost(box, host));
-    this.components = layer(() => this.createBox(1), (box, component) => this.updateComponent(box, component));
+    this.components = layer(() => this.createBox(2), (box, component) => this.updateComponent(box, component));
     this.edges = layer(() => this.createEdge(), (edge, item) => this.updateEdge(edge, item));
     this.ports = layer((port) => this.createPort(port), (element, port) => this.updatePort(element, port));
     parent.append(this.svg);
@@ -94,13 +108,14 @@ export class Graph {
     return link;
   }
 
-  show(links, refused) {
-    const topology = topologyOf(links.map((link) => this.withLastPorts(link)), refused);
+  show({links, refused_connections: refused, components, ticks}) {
+    const topology = topologyOf(links.map((link) => this.withLastPorts(link)), refused, rowsOf({components, ticks}));
     this.parent.hidden = topology.hosts.length === 0;
     setText(this.note, links.length === 0 ? 'No link.' : topology.note || (this.failure ?? ''));
     this.note.hidden = this.note.textContent === '';
     this.newest = topology;
-    if (topology.key !== this.key) this.layOut(topology);
+    const resized = Math.abs(this.parent.clientWidth - this.width) > 40;
+    if (topology.key !== this.key || resized) this.layOut(topology);
     else this.draw();
   }
 
@@ -108,7 +123,7 @@ export class Graph {
     this.key = topology.key;
     try {
       this.elk ??= await loadElk();
-      const layout = await this.elk.layout(elkGraph(topology));
+      const layout = await this.fit(topology);
       if (this.key !== topology.key) return; // changed meanwhile; another layout follows
       this.drawing = {key: topology.key, ...placesOf(layout)};
       this.draw();
@@ -118,11 +133,21 @@ export class Graph {
     }
   }
 
+  /** Lays the graph out so that the gaps between its layers fill the width of the page. The width grows with them in proportion. */
+  async fit(topology) {
+    this.width = this.parent.clientWidth;
+    const narrow = await this.elk.layout(elkGraph(topology, layerGap)), missing = this.width - narrow.width - 4;
+    if (missing < 20) return narrow;
+    const wide = await this.elk.layout(elkGraph(topology, layerGap + missing)), slope = (wide.width - narrow.width) / missing;
+    return slope > 0 ? this.elk.layout(elkGraph(topology, Math.min(widestGap, layerGap + missing / slope))) : narrow;
+  }
+
   draw() {
     const {drawing, newest} = this;
     if (drawing === null || newest.key !== drawing.key) return;
     setAttributes(this.svg, {viewBox: `0 0 ${Math.ceil(drawing.width)} ${Math.ceil(drawing.height)}`});
-    this.svg.style.width = `${Math.ceil(drawing.width)}px`;
+    // Somewhat smaller on a narrow page; what still does not fit scrolls.
+    this.svg.style.width = `${Math.ceil(Math.max(0.75 * drawing.width, Math.min(drawing.width, this.parent.clientWidth - 2)))}px`;
     const components = newest.hosts.flatMap((host) => host.components);
     this.hosts.show(newest.hosts, (host) => host.id);
     this.components.show(components, (component) => component.id);
@@ -148,11 +173,13 @@ export class Graph {
   }
 
   updateHost(box, host) {
-    this.updateBox(box, host, `host ${host.state}`, [host.title, `${sideSigns[host.state] ?? '?'} ${host.state}${host.pid ? `, pid ${host.pid}` : ''}`]);
+    const word = host.state !== 'dead' && host.state !== 'gone' ? host.state : host.ended ? 'ended in order' : 'died';
+    this.updateBox(box, host, `host ${host.state}`, [host.title, `${sideSigns[host.state] ?? '?'} ${word}${host.pid ? `, pid ${host.pid}` : ''}`]);
   }
 
   updateComponent(box, component) {
-    this.updateBox(box, component, component.mirror ? 'component mirror' : 'component', [component.name]);
+    const [detail, className] = describe(component);
+    this.updateBox(box, component, className, [component.name, detail]);
   }
 
   createEdge() {
@@ -194,6 +221,7 @@ export class Graph {
   updatePort(group, port) {
     const {x, y} = this.drawing.places.get(port.id);
     const [dot, text, title] = group.children;
+    if (port.key || port.filter) setAttributes(group, {'aria-label': port.name});
     setClass(group, `port${port.mismatch ? ' mismatch' : ''}${port.key && port.key === this.chosen ? ' chosen' : ''}`);
     setAttributes(dot, {cx: x, cy: y});
     const left = port.side === 'first';

@@ -64,9 +64,9 @@ export class Stick {
     this.timer = setInterval(() => this.send(), pause);
   }
 
-  send(stop = false) {
+  send() {
     const [x, y] = this.position ?? [0, 0];
-    this.connection.send({op: 'drive', link: this.link, x, y, stop});
+    this.connection.send({op: 'drive', link: this.link, x, y, stop: false});
   }
 
   release() {
@@ -75,10 +75,5 @@ export class Stick {
     if (this.timer === null) return;
     this.timer = this.position = null;
     if (this.drives) this.send();
-  }
-
-  emergencyStop() {
-    this.release();
-    this.send(true);
   }
 }

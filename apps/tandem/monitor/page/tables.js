@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The tables of ports and call queues. Each has one row that is updated.
 import {KeyedList, duration, make, makeSvg, number, setAttributes, setClass, setText, silence} from './dom.js';
+import {Sorter} from './sort.js';
 
 const find = (id) => document.getElementById(id);
 
@@ -15,7 +16,11 @@ export function direction(link, port) {
 
 /** Writes cells into a row, from column `first`. A cell is a text with a class, or a histogram. */
 export function fill(row, first, cells) {
-  while (row.children.length < first + cells.length) row.append(make('td'));
+  while (row.children.length < first + cells.length) {
+    const cell = make('td');
+    cell.dataset.label = row.closest('table').tHead.rows[0].cells[row.children.length].textContent; // shown on a narrow page
+    row.append(cell);
+  }
   cells.forEach((content, i) => {
     const cell = row.children[first + i];
     if (!Array.isArray(content)) return fillHistogram(cell, content.histogram);
@@ -103,6 +108,11 @@ export class PortTable {
     this.chosen = '';
     this.window = new RowWindow(find('ports'), () => this.draw());
     this.items = [];
+    this.sorter = new Sorter(find('ports'), {
+      0: ({port}) => port.name, 1: ({port}) => port.sent_per_s, 2: ({port}) => port.silent_s, 3: ({port}) => port.lost,
+      4: ({port}) => port.age?.p50_ns, 5: ({port}) => port.age?.p99_ns, 6: ({port}) => port.age?.max_ns, 8: ({port}) => port.waiting,
+      9: ({link, port}) => port.damage ? '' : direction(link, port), 10: ({link}) => link.name, 11: ({port}) => shortType(port.type ?? ''),
+    }, () => this.show(this.links));
     this.list = new KeyedList(find('ports').tBodies[0], ({key, port}) => this.createRow(key, port, choose),
       (row, item) => this.updateRow(row, item));
   }
@@ -144,6 +154,7 @@ export class PortTable {
   }
 
   show(links) {
+    this.links = links;
     const wanted = find('filter').value.toLowerCase();
     const items = [];
     let all = 0;
@@ -153,7 +164,7 @@ export class PortTable {
         const text = `${port.name} ${port.component ?? ''} ${port.type ?? ''}`.toLowerCase();
         if (text.includes(wanted)) items.push({key: keyOfPort(link, port), link, port});
       }
-    this.items = items;
+    this.items = this.sorter.sort(items);
     this.draw();
     setText(find('ports-count'), items.length === all ? `${all} ports` : `${items.length} of ${all} ports`);
   }
@@ -161,6 +172,11 @@ export class PortTable {
 
 export class CallTable {
   constructor() {
+    const times = (which) => ({queue}) => queue.round_trip?.[which];
+    this.sorter = new Sorter(find('calls'), {0: ({link, queue}) => queue.damage ? '' : link.sides[queue.callers].model, 1: ({link}) => link.name,
+      2: ({queue}) => queue.calls_per_s, 3: ({queue}) => queue.answered_per_s, 4: ({queue}) => queue.open_calls, 5: times('p50_ns'),
+      6: times('p99_ns'), 7: times('max_ns'), 9: ({queue}) => queue.calls, 10: ({queue}) => queue.timeouts, 11: ({queue}) => queue.overloads,
+      12: ({queue}) => queue.cancels}, () => this.show(this.links));
     this.list = new KeyedList(find('calls').tBodies[0], () => make('tr'), (row, {link, queue}) => {
       if (queue.damage) return fill(row, 0, [[queue.name, ''], [link.name, ''], [`damaged: ${queue.damage}`, 'bad']]);
       const failing = queue.recently.failed > 0 ? 'number bad' : 'number';
@@ -177,7 +193,8 @@ export class CallTable {
   }
 
   show(links) {
-    const queues = links.flatMap((link) => link.call_queues.map((queue) => ({link, queue})));
+    this.links = links;
+    const queues = this.sorter.sort(links.flatMap((link) => link.call_queues.map((queue) => ({link, queue}))));
     this.list.show(queues, ({link, queue}) => `${link.name}/${queue.owner}/${queue.name}`);
     find('calls-empty').hidden = queues.length > 0;
     find('calls').hidden = queues.length === 0;

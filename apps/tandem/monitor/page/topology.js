@@ -37,16 +37,16 @@ class Builder {
   unreadable = [];
 
   host(link, side) {
-    const id = hostId(link, side), {model, state, pid, pid_in_other_namespace: inner, program} = link.sides[side];
+    const id = hostId(link, side), {model, state, pid, pid_in_other_namespace: inner, program, ended_in_order: ended} = link.sides[side];
     // A link of a process with itself belongs to a program that shows values, not to a model.
     const itself = link.sides.first.pid !== 0 && link.sides.first.pid === link.sides.second.pid;
-    if (!this.hosts.has(id)) this.hosts.set(id, {id, state, pid: pid || (inner ? `${inner} of another namespace` : 0), title: itself ? program || 'program' : `${model} host ${program}`.trim(), components: new Map()});
+    if (!this.hosts.has(id)) this.hosts.set(id, {id, state, ended, pid: pid || (inner ? `${inner} of another namespace` : 0), title: itself ? program || 'program' : `${model} host ${program}`.trim(), components: new Map()});
     return this.hosts.get(id);
   }
 
   component(link, side, name, mirror) {
     const host = this.host(link, side), id = `${host.id}/${link.name}/${mirror ? 'mirror of ' : ''}${name}`;
-    if (!host.components.has(id)) host.components.set(id, {id, link: link.name, mirror, name: mirror ? `${name}, mirrored` : name, ports: []});
+    if (!host.components.has(id)) host.components.set(id, {id, link: link.name, mirror, base: name, name: mirror ? `${name}, mirrored` : name, ports: []});
     return host.components.get(id);
   }
 
@@ -101,19 +101,33 @@ class Builder {
   }
 }
 
+/** Adds the state and period of each component to its hosts, and the components that share no port with another model. */
+function addComponents(hosts, rows) {
+  for (const host of hosts) {
+    const own = rows.filter(({pid}) => pid === host.pid);
+    for (const row of own) {
+      const shared = host.components.filter((component) => !component.mirror && component.base === row.name);
+      for (const component of shared) component.row = row;
+      if (shared.length === 0 && row.state !== null)
+        host.components.push({id: `${host.id}/inside/${row.key}`, name: row.name, base: row.name, mirror: false, inside: true, ports: [], row});
+    }
+  }
+}
+
 /** `key` changes when a part comes or goes, but not with rates and states. `note`: omitted parts. */
-export function topologyOf(links, refused) {
+export function topologyOf(links, refused, rows = []) {
   const builder = new Builder(refused);
   const total = links.reduce((count, link) => count + (link.readable ? link.ports.length + link.shared_ports.length : 0), 0);
   const together = total > mostDrawn;
   for (const link of links) builder.addLink(link, together);
   const hosts = [...builder.hosts.values()].map((host) => ({...host, components: [...host.components.values()]}));
+  addComponents(hosts, rows);
   // For a host with several links, adds the link's name to the component.
   for (const {components} of hosts)
-    if (new Set(components.map((component) => component.link)).size > 1)
-      for (const component of components) component.name += `, link ${component.link}`;
+    if (new Set(components.filter(({inside}) => !inside).map((component) => component.link)).size > 1)
+      for (const component of components.filter(({inside}) => !inside)) component.name += `, link ${component.link}`;
   const key = JSON.stringify([hosts.map((host) => [host.id, host.title, host.components.map((component) =>
-    [component.id, component.ports.map((port) => [port.id, port.mismatch])])]), builder.edges.map((edge) => edge.id)]);
+    [component.id, Boolean(component.row), component.ports.map((port) => [port.id, port.mismatch])])]), builder.edges.map((edge) => edge.id)]);
   const notes = [...builder.unreadable];
   if (together) notes.push(`${total} ports: the ports of a component are drawn as one; the table below lists each`);
   if (builder.hidden > 0) notes.push(`${builder.hidden} more ports are listed in the table below`);

@@ -3,6 +3,7 @@
 
 #include "apps/tandem/monitor/control/control.hpp"
 #include "apps/tandem/monitor/foxglove/foxglove_session.hpp"
+#include "apps/tandem/monitor/samples/sample_session.hpp"
 #include "apps/tandem/monitor/web/page_session.hpp"
 #include "apps/tandem/monitor/web/websocket_session.hpp"
 #include "apps/tandem/output/print_note.hpp"
@@ -168,10 +169,13 @@ void HttpSession::upgrade(const Request& request) {
     }
     const bool control = path == "/api/control";
     if (control && service_.control == nullptr) return refuse(status::forbidden, read_only);
-    if (!control && path != "/api/live")
-        return refuse(status::not_found, "expected /api/live, /api/control or foxglove.websocket.v1");
+    const bool samples = path == "/api/samples";
+    if (!control && !samples && path != "/api/live")
+        return refuse(status::not_found,
+                      "expected /api/live, /api/samples, /api/control or foxglove.websocket.v1");
     if (!is_origin_own(request))
         return refuse(status::forbidden, "expected the monitor's own page in the header Origin");
+    if (samples) return become<SampleSession>(has_token);
     return control ? become<ControlSession>(has_token) : become<PageSession>(has_token);
 }
 

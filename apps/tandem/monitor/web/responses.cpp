@@ -38,7 +38,7 @@ Response respond(const Request& request, const Service& service) {
     const std::string path = path_of(request);
     if (path == "/api/state") return make_response(status::ok, "application/json", *service.state);
     if (path == "/metrics") return make_response(status::ok, metrics_type, service.metrics());
-    if (path == "/api/live" || path == "/api/control") {
+    if (path == "/api/live" || path == "/api/samples" || path == "/api/control") {
         Response response = text_response(status::upgrade_required, "expected a WebSocket");
         response.set(field::upgrade, "websocket");
         return response;

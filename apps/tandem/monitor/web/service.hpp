@@ -17,6 +17,7 @@ namespace tandem::monitor {
 class Channels;
 class Control;
 class PageSession;
+class SampleFeed;
 
 /// Data that all sessions of the server share. [one thread]
 struct Service {
@@ -24,7 +25,8 @@ struct Service {
     std::shared_ptr<const std::string> state = std::make_shared<std::string>("{}"); ///< newest, JSON
     std::function<std::string()> metrics;
     Control* control = nullptr;          ///< null: read-only
-    Channels* channels = nullptr;        ///< for clients of foxglove.websocket.v1
+    Channels* channels = nullptr;        ///< for clients of foxglove.websocket.v1; null: the monitor ends
+    SampleFeed* samples = nullptr;       ///< for plots of the page; null: the monitor ends
     std::string session_id;              ///< changes at each start of the monitor
     AllowedHosts hosts;                  ///< names by which clients may address the monitor
     std::set<std::string> other_origins; ///< origins of pages that may use foxglove.websocket.v1

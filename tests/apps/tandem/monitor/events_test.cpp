@@ -39,20 +39,42 @@ TEST_CASE("a state that could not be read is not an event") {
     CHECK(events_between(state_of({sound_link()}), unseen).empty());
 }
 
-TEST_CASE("a side that dies and returns in a new generation causes two events") {
+TEST_CASE("a side that dies and starts again in a new generation causes two events") {
     LinkState dead = sound_link(), back = sound_link();
     dead.sides[1].state = PeerState::dead;
     CHECK(texts(sound_link(), dead) == Texts{"!the RTM host rtm_host (pid 22) has died"});
     CHECK(texts(dead, dead).empty());
     back.generation = 2;
     back.sides[1].pid = 33;
-    CHECK(texts(dead, back) == Texts{"new generation 2", "the RTM host rtm_host (pid 33) has returned"});
+    CHECK(texts(dead, back) == Texts{"the link continues as generation 2; its counters start at zero",
+                                     "the RTM host rtm_host (pid 33) has started again"});
+}
+
+TEST_CASE("a side that ends in order is no failure, and one that dies is") {
+    LinkState ended = sound_link(), gone = sound_link();
+    ended.sides[1].state = PeerState::dead;
+    ended.sides[1].left = true;
+    CHECK(texts(sound_link(), ended) == Texts{"the RTM host rtm_host (pid 22) has ended in order"});
+    gone.sides[1].state = PeerState::absent;
+    gone.sides[1].gone = gone.sides[1].left = true;
+    CHECK(texts(sound_link(), gone) == Texts{"the RTM host rtm_host (pid 22) has ended in order"});
+    CHECK(texts(ended, gone).empty());
+}
+
+TEST_CASE("a restart between two looks tells how the previous process ended") {
+    LinkState again = sound_link();
+    again.sides[1].pid = 33;
+    CHECK(texts(sound_link(), again) == Texts{"!the RTM host rtm_host (pid 22) has died",
+                                              "the RTM host rtm_host (pid 33) has started again"});
+    again.sides[1].previous_left = true;
+    CHECK(texts(sound_link(), again) == Texts{"the RTM host rtm_host (pid 22) has ended in order",
+                                              "the RTM host rtm_host (pid 33) has started again"});
 }
 
 TEST_CASE("a link created again with the same generation is a new link") {
     LinkState anew = sound_link();
     anew.created_ns = 2000;
-    CHECK(texts(sound_link(), anew) == Texts{"new generation 1"});
+    CHECK(texts(sound_link(), anew) == Texts{"the link was created again; its counters start at zero"});
 }
 
 TEST_CASE("joining, stopping and continuing of a side are events") {
@@ -87,17 +109,17 @@ TEST_CASE("the log keeps the newest 200 events and numbers all") {
     CHECK(log.events().back().number == 300);
 }
 
-TEST_CASE("a side whose peer continued without it is gone, and then returns") {
+TEST_CASE("a side whose peer continued without it is gone, and then starts again") {
     LinkState gone = sound_link(), back = sound_link();
     gone.generation = 2;
     gone.sides[1].state = PeerState::absent;
     gone.sides[1].gone = true;
     back.generation = 2;
     back.sides[1].pid = 33;
-    CHECK(texts(sound_link(), gone) ==
-          Texts{"new generation 2", "!the RTM host rtm_host (pid 22) is gone: it died or was stopped"});
+    CHECK(texts(sound_link(), gone) == Texts{"the link continues as generation 2; its counters start at zero",
+                                             "!the RTM host rtm_host (pid 22) has died"});
     CHECK(texts(gone, gone).empty());
-    CHECK(texts(gone, back) == Texts{"the RTM host rtm_host (pid 33) has returned"});
+    CHECK(texts(gone, back) == Texts{"the RTM host rtm_host (pid 33) has started again"});
 }
 
 TEST_CASE("a refused connection is an event, and so is the end of the refusal") {

@@ -104,14 +104,36 @@ TEST_CASE("a side whose peer joins the next generation is gone until it returns"
     first.reset();
     first = join(link, Side::first);
     first->publish();
-    const auto gone = next_with(page, "gone", 3);
-    REQUIRE_FALSE(gone.is_null());
-    CHECK(gone["links"][0]["sides"]["second"]["state"] == "gone");
-    CHECK(gone["links"][0]["sides"]["second"]["pid"] == pid);
-    CHECK(gone["links"][0]["sides"]["second"]["model"] == "RTM");
-    CHECK(gone["links"][0]["sides"]["first"]["model"] == "unknown"); // it has published no table
+    nlohmann::json state;
+    REQUIRE(
+        eventually([&] { return (state = page.next())["links"][0]["sides"]["second"]["state"] == "gone"; }));
+    CHECK(state["verdict"]["level"] == "dead");
+    const auto& sides = state["links"][0]["sides"];
+    CHECK(sides["second"]["pid"] == pid);
+    CHECK(sides["second"]["model"] == "RTM");
+    CHECK(sides["second"]["ended_in_order"] == false);
+    CHECK(sides["first"]["model"] == "unknown"); // it has published no table
     const Child again = sleeping_host(link.name, Side::second, "RTM");
     CHECK_FALSE(next_with(page, "well", 40).is_null());
+}
+
+TEST_CASE("a side that leaves in order has ended, also when its peer has joined the next generation") {
+    const Link link;
+    auto first = join(link, Side::first), second = join(link, Side::second);
+    first->publish();
+    second->publish();
+    const RunningMonitor monitor(link.name);
+    Live page(monitor);
+    REQUIRE_FALSE(next_with(page, "well", 40).is_null());
+    second->leave();
+    first.reset();
+    first = join(link, Side::first);
+    first->publish();
+    const auto ended = next_with(page, "gone", 5);
+    REQUIRE_FALSE(ended.is_null());
+    CHECK(ended["links"][0]["sides"]["second"]["ended_in_order"] == true);
+    CHECK_THAT(ended["verdict"]["reason"].get<std::string>(), Catch::Contains("has ended in order"));
+    CHECK_THAT(ended["events"].dump(), Catch::Contains("has ended in order") && !Catch::Contains("has died"));
 }
 
 TEST_CASE("dropped messages change the verdict, and so does a stopped host") {

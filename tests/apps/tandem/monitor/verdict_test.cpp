@@ -17,6 +17,22 @@ TEST_CASE("the verdict on healthy links is that all is well") {
     CHECK_THAT(verdict.reason, Catch::StartsWith("2 links: both hosts alive"));
 }
 
+TEST_CASE("the verdict lists the worst findings, from bad to good, and counts all") {
+    std::vector<LinkState> links;
+    for (std::size_t i = 0; i < 30; ++i) {
+        links.push_back(sound_link("link" + std::to_string(i)));
+        links.back().ports[0].missed_recently = 1;
+    }
+    links[3].sides[1].state = PeerState::dead;
+    const Verdict verdict = judge(state_of(links));
+    CHECK(verdict.findings == 31);
+    REQUIRE(verdict.worst.size() == Verdict::max_worst);
+    CHECK(verdict.worst[0].reason == verdict.reason);
+    CHECK(verdict.worst[0].level == Level::dead);
+    CHECK_THAT(verdict.worst[1].reason, Catch::StartsWith("link link0, port velocity: 1 missed deadline"));
+    CHECK_THAT(verdict.worst[2].reason, Catch::StartsWith("link link1,"));
+}
+
 TEST_CASE("the verdict names what is wrong, and where") {
     LinkState link = sound_link();
     const auto check = [&](Level level, const std::string& reason) {
@@ -41,7 +57,9 @@ TEST_CASE("the verdict names what is wrong, and where") {
     SECTION("a side that was there and is gone") {
         link.sides[1].state = PeerState::absent;
         link.sides[1].gone = true;
-        check(Level::gone, "link chair: the RTM host rtm_host (pid 22) died or was stopped");
+        check(Level::dead, "link chair: the RTM host rtm_host (pid 22) has died");
+        link.sides[1].left = true;
+        check(Level::gone, "link chair: the RTM host rtm_host (pid 22) has ended in order");
     }
     SECTION("a port of a type unknown to the other model") {
         link.shared_ports = {

@@ -5,7 +5,7 @@ import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { mkdtempSync, readdirSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
-import { cleanUp, startBrowser, startMonitor, startWheelchair } from "./robot.mjs";
+import { cleanUp, end, startBrowser, startMonitor, startWheelchair } from "./robot.mjs";
 
 let chair, monitor, browser, page, address;
 const folder = mkdtempSync(join(tmpdir(), "tandem-recording-"));
@@ -17,7 +17,7 @@ before(async () => {
   address = new URL(monitor.url).origin;
   browser = await startBrowser([]);
   page = await browser.open(monitor.url);
-  await page.waitForSelector("#chair-section:not([hidden])");
+  await page.locator("#chair-anchor").click();
 });
 after(async () => {
   await browser?.close();
@@ -51,7 +51,7 @@ async function hold(of, right, up) {
 
 test("the address that is printed has the token, and it leaves the address bar", async () => {
   assert.match(monitor.url, /#token=[0-9a-f]{32}$/);
-  await page.waitForSelector("#control-form:not([hidden])");
+  await page.waitForSelector("#control-form:not([hidden])", { state: "attached" });
   assert.doesNotMatch(page.url(), /token/);
   assert.doesNotMatch(await (await fetch(`${address}/api/state`)).text(), new RegExp(monitor.url.split("=")[1]));
 });
@@ -62,6 +62,7 @@ test("the stick on the page drives the chair, and a released one stops it", asyn
   await chairUntil((now) => now.stick_y > 1000 && now.stick_x === 0 && now.wheel_left > 1, "a stick to the front and turning wheels");
   await page.mouse.up();
   await chairUntil((now) => now.stick_y === 0 && now.wheel_left === 0 && now.brake === 1, "a released stick, and stood still");
+  await page.waitForFunction(() => /: stands, brake closed/.test(document.querySelector("#chair-state").textContent));
 });
 
 test("arrow keys drive while they are held", async () => {
@@ -77,6 +78,7 @@ test("arrow keys drive while they are held", async () => {
 test("a browser that is lost while it drives stops the chair", async () => {
   const other = await startBrowser([]);
   const driver = await other.open(monitor.url);
+  await driver.locator("#chair-anchor").click();
   await driver.waitForSelector("#chair-stick.drives");
   await hold(driver, -0.5, 0.8);
   await chairUntil((now) => now.stick_y > 1000 && now.wheel_left > 0.5, "a stick to the front");
@@ -87,19 +89,31 @@ test("a browser that is lost while it drives stops the chair", async () => {
 
 test("a page without the token sees everything and drives nothing", async () => {
   const watcher = await browser.open(`${address}/`);
+  await watcher.locator("#control-anchor").click();
   await watcher.waitForSelector("#token-form:not([hidden])");
   await watcher.locator("#token").fill("0".repeat(32));
   await watcher.locator("#token-form button").click();
-  await watcher.waitForSelector("#chair-section:not([hidden])");
+  await watcher.waitForFunction(() => /^✕ the monitor does not accept this token/.test(document.querySelector("#token-answer").textContent));
+  await watcher.locator("#chair-anchor").click();
   await hold(watcher, 0, 0.9);
   assert.equal(await watcher.locator("#chair-stick.drives").count(), 0);
   await watcher.mouse.up();
-  assert.equal(await watcher.locator("#control-form").isVisible(), false);
+  assert.equal(await watcher.locator("#control-form:not([hidden])").count(), 0);
   assert.equal((await chairNow()).stick_y, 0);
   await watcher.close();
 });
 
+test("a command without what it needs says so, and sends nothing", async () => {
+  await page.locator("#control-anchor").click();
+  await page.locator("#control-arguments").fill(" ");
+  for (const command of ["activate", "connect", "conf"]) {
+    await page.locator(`#control-form button[value="${command}"]`).click();
+    await page.waitForFunction((name) => document.querySelector("#control-result").textContent.startsWith(`✕ ${name}: enter `), command);
+  }
+});
+
 test("the page records, and tells an RT-Component's command what it answered", async () => {
+  await page.locator("#control-anchor").click();
   await page.locator("#record").click();
   await page.waitForSelector('#record[aria-pressed="true"]');
   await page.waitForTimeout(500);
@@ -112,11 +126,35 @@ test("the page records, and tells an RT-Component's command what it answered", a
   await page.waitForFunction(() => document.querySelector("#control-result").textContent.startsWith("✕ activate"));
 });
 
+test("an emergency stop without a connection is not swallowed", async () => {
+  const watcher = await browser.open(`${address}/`);
+  await watcher.locator("#chair-anchor").click();
+  await watcher.waitForSelector("#drive-bar:not([hidden])");
+  await watcher.locator("#emergency").click();
+  await watcher.waitForFunction(() => /^✕ Emergency stop failed: not sent/.test(document.querySelector("#drive-answer").textContent));
+  await watcher.close();
+});
+
 test("the emergency stop stays", async () => {
+  await page.locator("#chair-anchor").click();
   await page.locator("#emergency").click();
   await chairUntil((now) => now.emergency_stop === 1 && now.state === 2, "an emergency stop");
   await hold(page, 0, 0.8);
   await page.waitForTimeout(500);
   await page.mouse.up();
   assert.equal((await chairNow()).brake, 1);
+  const answer = await page.locator("#drive-answer").textContent();
+  assert.match(answer, /^■ Emergency stop\. It lasts until the run ends\. To drive again: press Ctrl-C where wheelchair runs/);
+});
+
+test("an emergency stop that does not reach the chair says so", async () => {
+  const other = await startWheelchair(["--drive"]);
+  const watching = await startMonitor([`${other.link}-chair`], 0, ["--control"]);
+  const driver = await browser.open(watching.url);
+  await driver.locator("#chair-anchor").click();
+  await driver.waitForSelector("#chair-stick.drives");
+  await end(other.child, "SIGKILL");
+  await driver.locator("#emergency").click();
+  await driver.waitForFunction(() => /^✕ Emergency stop failed: .*Stop the chair by its own switch/.test(document.querySelector("#drive-answer").textContent));
+  await driver.close();
 });

@@ -13,6 +13,6 @@ skip() { echo "skipped: $*"; exit 77; }
 reason=$("$here/../../../../../apps/npm_install.sh" "$here/package.json" "$folder") || skip "$reason"
 mkdir -p "$pictures"
 cd "$folder"
-[ -f "$bin/../share/tandem/monitor/lib/elk-worker.min.js" ] || skip "Tandem was built without elkjs, see the build's output"
+[ -f "$bin/../share/tandem/monitor/lib/uPlot.esm.js" ] || skip "Tandem was built without its libraries from npm, see the build's output"
 cp "$here"/*.mjs .
 TANDEM_BIN=$bin TANDEM_PICTURES=$pictures exec timeout 280 node --test-reporter=spec --test-concurrency=1 --test "$@"

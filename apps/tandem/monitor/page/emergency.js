@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// The emergency stop of the wheelchair: sends it, and says whether the chair has confirmed it, and what to do next.
+import {setClass, setText} from './dom.js';
+
+const patience = 2000; // ms for the chair to confirm, which takes a few ticks
+const otherWay = 'Stop the chair by its own switch, or press Ctrl-C where wheelchair runs.';
+
+export class EmergencyStop {
+  /** `answer`: the element for the outcome. `connection`: of control.js. */
+  constructor(button, answer, connection) {
+    Object.assign(this, {answer, connection, link: null, pressed: false, waits: false});
+    button.addEventListener('click', () => this.stop());
+  }
+
+  tell(bad, text) {
+    setClass(this.answer, bad ? 'bad' : '');
+    setText(this.answer, text);
+  }
+
+  async stop() {
+    this.onstop?.();
+    this.tell(false, 'Emergency stop: sending ...');
+    const reply = await this.connection.ask({op: 'drive', link: this.link, x: 0, y: 0, stop: true});
+    if (this.pressed) return;
+    if (!reply.ok) return this.tell(true, `✕ Emergency stop failed: ${reply.text}. ${otherWay}`);
+    this.waits = true;
+    this.tell(false, 'Emergency stop: sent, the chair has not confirmed it yet ...');
+    setTimeout(() => {
+      if (this.waits) this.tell(true, `✕ The chair has not confirmed the emergency stop. ${otherWay}`);
+    }, patience);
+  }
+
+  /** Called with each message of the chair. */
+  show(link, chair) {
+    const pressed = chair.emergency_stop === 1;
+    if (pressed === this.pressed && link === this.link) return;
+    Object.assign(this, {link, pressed, waits: this.waits && !pressed});
+    this.tell(pressed, pressed ? '■ Emergency stop. It lasts until the run ends. To drive again: press Ctrl-C where wheelchair runs, ' +
+      'and start it again.' : '');
+  }
+}

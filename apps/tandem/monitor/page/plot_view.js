@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+// One plot: curves over time, drawn by uPlot. Drag over a part to enlarge it, double-click to return; the values at the cursor
+// are in the legend.
+import {align, curveId, labelOf, pointsOf} from './curves.js';
+import {KeyedList, make, number, setAttributes, setClass, setText} from './dom.js';
+
+const height = 240;
+const dashes = [[], [7, 3], [2, 3], [9, 3, 2, 3], [], [12, 4]], colours = dashes.length;
+let loading = null;
+
+/** Loads uPlot once. Throws an error with the remedy if it is not there. */
+export function loadPlots() {
+  loading ??= import('./lib/uPlot.esm.js').then((module) => module.default,
+    () => { throw new Error('uPlot is not there; build Tandem where npm can install it'); });
+  return loading;
+}
+
+/** Returns the time of day for the axis; `step`: between two marks, in s. */
+function clockText(seconds, step) {
+  const time = new Date(seconds * 1000), text = time.toLocaleTimeString('en-GB');
+  return step < 1 ? `${text}.${String(time.getMilliseconds()).padStart(3, '0').slice(0, step < 0.1 ? 3 : 1)}` : text;
+}
+
+const colourOf = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+
+/** Returns how a curve is called for a number of digits that people can read. */
+const valueText = (value) => value === null || value === undefined || Number.isNaN(value) ? '–' : number(value);
+
+export class PlotView {
+  /** `parent`: gets the plot and its legend. `plot`: curves, seconds, range (null: fits the values). `store`: SampleStore. */
+  constructor(parent, plot, store) {
+    Object.assign(this, {plot, store, uplot: null, key: '', hidden: new Set(), paused: false, shown: null});
+    this.element = make('div', 'plot');
+    this.legendElement = make('div', 'legend');
+    parent.append(this.element, this.legendElement);
+    this.legend = new KeyedList(this.legendElement, (item) => this.createEntry(item), (entry, item) => this.updateEntry(entry, item));
+    this.resize = new ResizeObserver(() => this.uplot?.setSize(this.size()));
+    this.resize.observe(this.element);
+  }
+
+  size() { return {width: Math.max(220, this.element.clientWidth), height}; }
+
+  /** Called by the legend's button; set by those who let people remove curves. */
+  onremove = null;
+
+  createEntry({curve, index}) {
+    const entry = make('span', `entry entry${index % colours}`), show = make('button');
+    show.type = 'button';
+    show.append(make('span', 'line'), make('span', 'name'), ' ', make('b'));
+    show.addEventListener('click', () => {
+      const id = curveId(curve);
+      if (!this.hidden.delete(id)) this.hidden.add(id);
+      this.key = '';
+    });
+    entry.append(show);
+    if (this.onremove) {
+      const remove = make('button', 'remove', '×');
+      remove.type = 'button';
+      remove.addEventListener('click', () => this.onremove(curve));
+      entry.append(remove);
+    }
+    return entry;
+  }
+
+  updateEntry(entry, {curve, index, label, value}) {
+    const [show, remove] = entry.children, off = this.hidden.has(curveId(curve));
+    setClass(entry, `entry entry${index % colours}`);
+    setText(show.children[1], label);
+    setText(show.children[2], valueText(value));
+    setAttributes(show, {'aria-pressed': !off, title: off ? 'show' : 'hide'});
+    if (remove) setAttributes(remove, {'aria-label': `remove ${label}`});
+  }
+
+  create(Plot) {
+    this.uplot?.destroy();
+    const {plot} = this, axis = {stroke: colourOf('--faint'), grid: {stroke: colourOf('--line'), width: 1}, ticks: {stroke: colourOf('--line')}};
+    const range = (_, low, high) => plot.range ?? (low === null ? [-1, 1] : low === high ? [low - 1, high + 1]
+      : [low - 0.05 * (high - low), high + 0.05 * (high - low)]);
+    const series = plot.curves.map((curve, i) => ({label: this.label(curve), stroke: colourOf(`--curve${i % colours}`),
+      dash: dashes[i % colours], width: 1.75, show: !this.hidden.has(curveId(curve)), points: {show: false}}));
+    this.uplot = new Plot({...this.size(), legend: {show: false}, scales: {x: {time: true}, y: {range}},
+      axes: [{...axis, space: 90, values: (_, marks, __, ___, step) => marks.map((mark) => clockText(mark, step))}, {...axis, size: 60}], series: [{}, ...series],
+      cursor: {drag: {x: true, y: true, uni: 40, setScale: false}, focus: {prox: 24}},
+      hooks: {setSelect: [(u) => this.enlarge(u)], setCursor: [() => this.drawLegend()]}}, align(plot.curves.map(() => null)), this.element);
+    this.uplot.over.addEventListener('dblclick', () => this.live());
+    setAttributes(this.element, {role: 'img', 'aria-label': `Plot of ${plot.curves.map((curve) => this.label(curve)).join(', ') || 'nothing'}`});
+  }
+
+  label(curve) { return labelOf(curve, new Set(this.plot.curves.map(({key}) => key)).size === 1); }
+
+  /** Shows the selected part and stands still. */
+  enlarge(uplot) {
+    const {left, top, width: wide, height: high} = uplot.select;
+    if (wide < 5 && high < 5) return;
+    const at = (place, scale) => uplot.posToVal(place, scale), full = uplot.over;
+    const part = {x: wide < 5 ? [0, full.clientWidth] : [left, left + wide], y: high < 5 ? null : [top + high, top]};
+    this.pause([at(part.x[0], 'x') * 1000, at(part.x[1], 'x') * 1000], part.y && part.y.map((place) => at(place, 'y')));
+    uplot.setSelect({left: 0, top: 0, width: 0, height: 0}, false);
+  }
+
+  /** Stands still at these times in ms, by default the shown ones; `zoom`: the values shown. */
+  pause(times = this.shown, zoom = null) {
+    Object.assign(this, {paused: true, shown: times});
+    this.zoom = zoom;
+    this.onpause?.(true);
+  }
+
+  live() {
+    Object.assign(this, {paused: false, zoom: null});
+    this.onpause?.(false);
+  }
+
+  /** Draws the newest samples, or what was shown when the plot was paused. */
+  draw(Plot) {
+    const {plot, store} = this, key = JSON.stringify([plot.curves, plot.range, [...this.hidden]]);
+    if (this.key !== key) {
+      this.create(Plot);
+      this.key = key;
+    }
+    if (!this.paused) this.shown = [store.now() - 1000 * plot.seconds, store.now()];
+    const [from, to] = this.shown;
+    const points = plot.curves.map((curve) => pointsOf(store, curve, from, to));
+    this.uplot.batch(() => {
+      this.uplot.setData(align(points), false);
+      this.uplot.setScale('x', {min: from / 1000, max: to / 1000});
+      if (this.zoom) this.uplot.setScale('y', {min: this.zoom[0], max: this.zoom[1]});
+    });
+    this.drawLegend();
+  }
+
+  /** Shows the values at the cursor, or the newest ones. */
+  drawLegend() {
+    if (!this.uplot) return;
+    const {idx} = this.uplot.cursor, data = this.uplot.data;
+    this.legend.show(this.plot.curves.map((curve, index) => ({curve, index, label: this.label(curve),
+      value: lastOf(data[index + 1], idx ?? data[0].length - 1)})), ({curve}) => curveId(curve));
+  }
+
+  remove() {
+    this.resize.disconnect();
+    this.uplot?.destroy();
+    this.element.remove();
+    this.legendElement.remove();
+  }
+}
+
+/** Returns the last value at or before an index; other curves of the plot may have no sample there. */
+function lastOf(column, index) {
+  let at = index;
+  while (at > 0 && column[at] === undefined) --at;
+  return column?.[at];
+}

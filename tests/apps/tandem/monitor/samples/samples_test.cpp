@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+// The messages of ports as the page plots them: all of them, not only the newest of each state.
+#include "tests/apps/tandem/monitor/http_client.hpp"
+
+#include "apps/tandem/monitor/samples/message_numbers.hpp"
+#include "apps/tandem/monitor/samples/sample_feed.hpp"
+#include "apps/tandem/record/cdr_message.hpp"
+#include "proxy/wire/time.hpp"
+#include "shm/ring/ring_reader.hpp"
+#include "shm/ring/ring_writer.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+using namespace tandem::monitor::test;
+using namespace tandem::shm;
+using namespace tandem::shm::test;
+using Json = nlohmann::json;
+
+namespace {
+
+std::span<const std::byte> bytes_of_number(const double& value) {
+    return std::as_bytes(std::span(&value, 1));
+}
+
+Json follow(const std::string& link, const std::vector<std::string>& ports) {
+    Json list = Json::array();
+    for (const auto& port : ports) list.push_back({{"link", link}, {"owner", "first"}, {"port", port}});
+    return {{"follow", list}};
+}
+
+/// A client of a link's port `speed`, whose first sample has come.
+struct Plotter : Live {
+    Plotter(const RunningMonitor& monitor, const std::string& link, RingWriter& writer)
+        : Live(monitor, 0, "/api/samples") {
+        send(follow(link, {"speed"}).dump());
+        REQUIRE(eventually([&] {
+            writer.write(bytes_of_number(-1), now_ns());
+            send(R"({"follow": 0})"); // its answer shows that the follower had time
+            for (auto message = next();; message = next())
+                if (message.contains("ports"))
+                    return true;
+                else if (message.contains("error"))
+                    return false;
+        }));
+    }
+    /// Returns the next samples until there are so many with a value of at least 0.
+    std::vector<Json> collect(std::size_t count) {
+        std::vector<Json> samples;
+        while (samples.size() < count)
+            if (const auto message = next(); message.contains("ports"))
+                for (const auto& port : message["ports"])
+                    for (const auto& sample : port["samples"])
+                        if (sample[2].is_null() || sample[2] >= 0) samples.push_back(sample);
+        return samples;
+    }
+};
+
+} // namespace
+
+TEST_CASE("the numbers of a message have the names of their members") {
+    const auto message = nlohmann::ordered_json::parse(
+        R"({"tm":{"sec":1,"nsec":2},"data":[1.5,true],"text":"4","lost":"nan","list":[{"x":3}]})");
+    const auto numbers = tandem::monitor::numbers_of(message);
+    CHECK(numbers.names ==
+          std::vector<std::string>{"tm.sec", "tm.nsec", "data[0]", "data[1]", "lost", "list[0].x"});
+    CHECK(numbers.values[3] == 1);
+    CHECK(std::isnan(numbers.values[4]));
+    CHECK(tandem::monitor::numbers_of(5).names == std::vector<std::string>{"value"});
+    const nlohmann::ordered_json long_list = std::vector<int>(1000, 1);
+    CHECK(tandem::monitor::numbers_of(long_list).names.size() ==
+          tandem::monitor::MessageNumbers::max_numbers);
+}
+
+TEST_CASE("the times of messages are the sender's, whatever its clock shows") {
+    using tandem::wire::pack_time;
+    const double wall_ms = static_cast<double>(tandem::command::wall_clock_ns()) / 1e6;
+    const auto seconds = [](std::uint64_t ns) { return static_cast<std::uint32_t>(ns / 1'000'000'000); };
+    for (const std::uint32_t start : {seconds(tandem::command::wall_clock_ns()), seconds(now_ns()), 7U}) {
+        tandem::monitor::SampleClock clock;
+        const double first = clock.time_of(pack_time(start, 0));
+        CHECK(std::abs(first - wall_ms) < 4000);
+        for (int i = 1; i < 50; ++i)
+            CHECK(clock.time_of(pack_time(start, i * 10'000'000)) == Approx(first + 10.0 * i).margin(0.5));
+    }
+    tandem::monitor::SampleClock clock; // without stamps
+    const double first = clock.time_of(0);
+    CHECK(std::abs(first - wall_ms) < 4000);
+    CHECK(clock.time_of(0) > first);
+}
+
+TEST_CASE("a plot gets every message, with its number and a time that increases") {
+    const Pair pair;
+    const auto rings = add_ports(*pair.first, {"speed", "level"});
+    RingWriter writer(rings[0]), other(rings[1]);
+    const RunningMonitor monitor(pair.link.name);
+    Plotter page(monitor, pair.link.name, writer);
+    constexpr int count = 20;
+    for (int i = 0; i < count; ++i) {
+        const double value = i == 7 ? std::nan("") : i;
+        writer.write(bytes_of_number(value), now_ns());
+        other.write(bytes_of_number(100), now_ns());
+    }
+    const auto samples = page.collect(count);
+    REQUIRE(samples.size() == count);
+    for (int i = 0; i < count; ++i) {
+        if (i == 7)
+            CHECK(samples[7][2].is_null());
+        else
+            CHECK(samples[i][2] == i);
+        if (i > 0) CHECK(samples[i][0] == samples[i - 1][0].get<std::uint64_t>() + 1);
+        if (i > 0) CHECK(samples[i][1] > samples[i - 1][1]);
+    }
+}
+
+TEST_CASE("messages that are overwritten before a plot gets them are missing in its numbers") {
+    const Pair pair;
+    const auto rings = add_ports(*pair.first, {"speed"});
+    RingWriter writer(rings[0]);
+    RingReader reader(*pair.second->find_ring(Side::first, tandem::link::ring_name("speed")));
+    const RunningMonitor monitor(pair.link.name);
+    Plotter page(monitor, pair.link.name, writer);
+    const auto send_all = [&](int count) {
+        for (int i = 0; i < count; ++i) {
+            while (reader.read()) {
+            }
+            writer.write(bytes_of_number(0), now_ns());
+        }
+    };
+    std::uint64_t missing = 0, last = 0;
+    REQUIRE(eventually([&] {
+        send_all(20'000);
+        for (const auto& sample : page.collect(1)) {
+            const std::uint64_t number = sample[0];
+            if (last != 0 && number > last + 1) missing += number - last - 1;
+            last = number;
+        }
+        return missing > 0;
+    }));
+}
+
+TEST_CASE("hostile requests for samples are refused, and the next one is answered") {
+    const Pair pair;
+    const auto rings = add_ports(*pair.first, {"speed"});
+    RingWriter writer(rings[0]);
+    RunningMonitor monitor(pair.link.name);
+    Live page(monitor, 0, "/api/samples");
+    const std::string many = follow(pair.link.name, std::vector<std::string>(17, "speed")).dump();
+    for (const std::string& request :
+         {std::string("nonsense"), std::string("[]"), std::string(R"({"follow":5})"),
+          std::string(R"({"follow":[5]})"),
+          std::string(R"({"follow":[{"link":"../x","owner":"first","port":"p"}]})"),
+          std::string(R"({"follow":[{"link":7,"owner":"first","port":"p"}]})"), many}) {
+        INFO(request);
+        page.send(request);
+        CHECK_THAT(page.next()["error"].get<std::string>(), Catch::Contains("at most 16 ports"));
+    }
+    page.send(follow(pair.link.name, {"speed", "no such port"}).dump());
+    page.send(follow("no-such-link", {"speed"}).dump());
+    Plotter(monitor, pair.link.name, writer);
+    CHECK(monitor.runs());
+}
+
+TEST_CASE("samples are only for the monitor's own page") {
+    const Pair pair;
+    const RunningMonitor monitor(pair.link.name);
+    const std::string upgrade = "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+                                "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n";
+    for (const char* origin : {"", "Origin: http://example.org\r\n", "Origin: null\r\n"})
+        CHECK(get(monitor, "/api/samples", "GET", upgrade + origin).status == 403);
+    CHECK(get(monitor, "/api/samples").status == 426);
+}
