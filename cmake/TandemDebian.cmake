@@ -30,8 +30,13 @@ set(CPACK_TANDEM_BUILD ${PROJECT_BINARY_DIR}) # for these two
 set(CPACK_TANDEM_SOURCE ${PROJECT_SOURCE_DIR})
 set(CPACK_COMPONENTS_ALL "")
 set(own "(= ${PROJECT_VERSION}-${TANDEM_DEB_REVISION})")
-execute_process(COMMAND dpkg --print-architecture OUTPUT_VARIABLE architecture
-  OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET) # without dpkg cpack makes no Debian package either
+if(CMAKE_CROSSCOMPILING)
+  set(CPACK_DEBIAN_PACKAGE_ARCHITECTURE ${TANDEM_DEB_ARCHITECTURE})
+  set(architecture ${TANDEM_DEB_ARCHITECTURE})
+else()
+  execute_process(COMMAND dpkg --print-architecture OUTPUT_VARIABLE architecture
+    OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET) # without dpkg cpack makes no Debian package either
+endif()
 
 # tandem_deb_package(NAME SECTION s SUMMARY line DESCRIPTION text [DEPENDS x ...] [RECOMMENDS x ...] [SUGGESTS x ...]
 #                    [CONFLICTS x ...] [NO_PROGRAMS])

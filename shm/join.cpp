@@ -118,6 +118,8 @@ class SegmentJoiner {
         header.magic = layout::magic;
         header.layout_version = layout::layout_version;
         header.header_bytes = sizeof header;
+        header.line_bytes = layout::line;
+        header.page_bytes = layout::page;
         header.contract = options_.contract;
         header.generation = generation;
         header.arena_offset[0] = layout::arenas_begin;

@@ -19,7 +19,10 @@ namespace {
 constexpr std::size_t max_mangled_length = 512;
 
 /// Names of plugins and components must not control a terminal.
-bool is_control(char c) { return (c >= 0 && c < ' ' && c != '\n' && c != '\t') || c == 0x7f; }
+bool is_control(char c) {
+    const auto byte = static_cast<unsigned char>(c); // char is signed on some processors
+    return (byte < ' ' && c != '\n' && c != '\t') || byte == 0x7f;
+}
 
 } // namespace
 

@@ -2,6 +2,7 @@
 #include "host/rt/periodic_tick.hpp"
 
 #include "host/rt/rehearsal.hpp"
+#include "shm/os/processor.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -26,11 +27,7 @@ void sleep_until(std::int64_t when) {
 }
 
 // Tells the processor that this is a polling loop. This saves power and leaves the core to its other hyper-thread.
-void relax() {
-#if defined(__x86_64__) || defined(__i386__)
-    __builtin_ia32_pause();
-#endif
-}
+void relax() { shm::Processor::pause(); }
 
 constexpr std::int64_t million = 1'000'000;
 constexpr std::int64_t default_spin_ns = 100'000;

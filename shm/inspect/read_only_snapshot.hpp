@@ -28,11 +28,13 @@ class ReadOnlySnapshot {
     explicit operator bool() const { return static_cast<bool>(file_); }
     int fd() const { return file_.get(); }
 
-    /// Copies to.size() bytes from `offset`. Returns false if the file ends before.
+    /// Copies to.size() bytes from `offset`. Returns false if the file ends before. The loads of one copy come before those of
+    /// the next.
     bool read(std::uint64_t offset, std::span<std::byte> to) const {
         if (offset > static_cast<std::uint64_t>(INT64_MAX) - to.size()) return false;
         const auto got =
             pread(file_.get(), static_cast<void*>(to.data()), to.size(), static_cast<off_t>(offset));
+        std::atomic_thread_fence(std::memory_order_acquire); // a system call is no barrier
         return got == static_cast<ssize_t>(to.size());
     }
 

@@ -6,7 +6,6 @@
 #include "shm/ring/ring_view.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cstring>
 
 namespace tandem::shm {
@@ -62,8 +61,6 @@ bool RingFollower::fail() {
 }
 
 bool RingFollower::read_words(WriterWords& words) {
-    // All earlier copies come before the loads of these words.
-    std::atomic_thread_fence(std::memory_order_acquire);
     Snapshot<RingHeader> copy;
     constexpr std::size_t from = offsetof(RingHeader, head), to = offsetof(RingHeader, sample);
     if (!file_->read(header_ + from, copy.room(from, to))) return fail();
@@ -197,7 +194,6 @@ bool RingFollower::copy_chunk(std::span<const std::byte> payload, std::uint64_t 
     const std::span<std::byte> content = make_room(memory_->chunk, bytes);
     if (content.size() != bytes || !file_->read(first_chunk + chunk * chunk_bytes_, content)) return fail();
     left_ -= std::min(left_, bytes);
-    std::atomic_thread_fence(std::memory_order_acquire);
     return is_filled();
 }
 

@@ -3,10 +3,8 @@
 // over this struct, so that tests/shm/model can run the shipping code under its own scheduler and memory model: there
 // Atomic<T> has the same member functions, and every access below is a step of the scheduler.
 #pragma once
-#include "shm/os/clock.hpp"
-#include "shm/os/shared_copy.hpp"
+#include "shm/os/processor.hpp"
 
-#include <emmintrin.h>
 #include <sched.h>
 
 namespace tandem::shm {
@@ -29,32 +27,30 @@ struct RealAtomics {
     }
 
     /// Copies word by word, by acquire loads and release stores, while the peer may be writing. Two words at a time halve the
-    /// number of instructions. Users often read a copy at once by loads of 8 or 16 bytes (vectorized loops): such a load finds
-    /// its bytes in one store that is still in the store buffer. x86-64 keeps the order of loads and of stores of any size, and
-    /// tears no aligned word; the thread sanitizer knows this only of atomic words.
+    /// number of instructions on x86-64. Users often read a copy at once by loads of 8 or 16 bytes (vectorized loops): such a
+    /// load finds its bytes in one store that is still in the store buffer.
     static void copy_atomic_from_shared(void* to, const Cell* from, std::size_t bytes) {
         auto* out = static_cast<std::byte*>(to);
-#ifndef __SANITIZE_THREAD__
         if (__builtin_constant_p(bytes) && bytes <= 64 && bytes % two_words == 0) { // without a loop
 #pragma GCC unroll 4
             for (; bytes >= two_words; bytes -= two_words, out += two_words, from += 2)
-                copy_two_words(out, from);
+                Processor::load_two_words(out, from);
             return;
         }
-        for (; bytes >= two_words; bytes -= two_words, out += two_words, from += 2) copy_two_words(out, from);
-#endif
+        for (; bytes >= two_words; bytes -= two_words, out += two_words, from += 2)
+            Processor::load_two_words(out, from);
         if (bytes != 0) copy_from_shared(out, from, bytes);
     }
     static void copy_atomic_to_shared(Cell* to, const void* from, std::size_t bytes) {
         const auto* in = static_cast<const std::byte*>(from);
-#ifndef __SANITIZE_THREAD__
         if (__builtin_constant_p(bytes) && bytes <= 64 && bytes % two_words == 0) {
 #pragma GCC unroll 4
-            for (; bytes >= two_words; bytes -= two_words, in += two_words, to += 2) store_two_words(to, in);
+            for (; bytes >= two_words; bytes -= two_words, in += two_words, to += 2)
+                Processor::store_two_words(to, in);
             return;
         }
-        for (; bytes >= two_words; bytes -= two_words, in += two_words, to += 2) store_two_words(to, in);
-#endif
+        for (; bytes >= two_words; bytes -= two_words, in += two_words, to += 2)
+            Processor::store_two_words(to, in);
         if (bytes == word_bytes) { // the last word of most messages
             std::uint64_t word = 0;
             std::memcpy(&word, in, word_bytes);
@@ -65,17 +61,17 @@ struct RealAtomics {
     }
 
     /// Requests a cell's cache line without waiting for it.
-    static void prefetch(const Cell* cell) { _mm_prefetch(cell, _MM_HINT_T0); }
+    static void prefetch(const Cell* cell) { __builtin_prefetch(cell); }
 
     static void fence() { std::atomic_thread_fence(std::memory_order_seq_cst); }
 
     /// A polling loop runs eager_rounds rounds before it pauses between rounds, and reads the clock every rounds_per_clock
     /// rounds.
     static constexpr unsigned eager_rounds = 1U << 15, rounds_per_clock = 128;
-    static void pause() { _mm_pause(); }
+    static void pause() { Processor::pause(); }
     static void yield() { sched_yield(); }
     static std::uint64_t now() { return now_ns(); }
-    static std::uint64_t ticks() { return time_stamp_counter(); }
+    static std::uint64_t ticks() { return Processor::counter(); }
 
     /// Bounds several sleeps of one wait.
     using BoundedSleep = shm::BoundedSleep;
@@ -86,19 +82,7 @@ struct RealAtomics {
     static void futex_wake(Atomic<std::uint32_t>& word, int max_sleepers);
 
   private:
-    static constexpr std::size_t two_words = 2 * word_bytes;
-#ifndef __SANITIZE_THREAD__
-    static void copy_two_words(std::byte* to, const Cell* from) {
-        const __m128i pair = _mm_loadu_si128(reinterpret_cast<const __m128i*>(from));
-        std::atomic_signal_fence(std::memory_order_acquire);
-        _mm_storeu_si128(reinterpret_cast<__m128i*>(to), pair);
-    }
-    static void store_two_words(Cell* to, const std::byte* from) {
-        const __m128i pair = _mm_loadu_si128(reinterpret_cast<const __m128i*>(from));
-        std::atomic_signal_fence(std::memory_order_release);
-        _mm_storeu_si128(reinterpret_cast<__m128i*>(to), pair);
-    }
-#endif
+    static constexpr std::size_t two_words = Processor::two_words;
 };
 
 } // namespace tandem::shm

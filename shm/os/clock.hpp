@@ -15,10 +15,6 @@ inline std::uint64_t now_ns() {
            static_cast<std::uint64_t>(now.tv_nsec);
 }
 
-/// Returns the processor's time-stamp counter: one instruction. The tick length is unspecified, and the counter may go back
-/// when a thread moves to another core.
-inline std::uint64_t time_stamp_counter() { return __builtin_ia32_rdtsc(); }
-
 /// The longest wait of all classes of shm. A longer bound is reduced to it.
 constexpr std::chrono::nanoseconds longest_wait = std::chrono::hours(24);
 

@@ -8,6 +8,7 @@
 #include <bit>
 #include <new>
 #include <sys/mman.h>
+#include <unistd.h>
 
 namespace tandem::shm {
 
@@ -51,7 +52,8 @@ Sizes sizes_of(const std::string& name, const RingOptions& options) {
 /// Also creates the pages now, rather than by page faults while the payload is written.
 bool allocate(int file, std::uint64_t offset, std::byte* memory, std::uint64_t bytes) {
     if (!try_reserve(file, offset, bytes)) return false;
-    const std::uint64_t before = reinterpret_cast<std::uintptr_t>(memory) % layout::page;
+    const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
+    const std::uint64_t before = reinterpret_cast<std::uintptr_t>(memory) % page;
     madvise(memory - before, before + bytes,
             MADV_POPULATE_WRITE); // kernels before 5.14 refuse, and create the pages one by one
     return true;

@@ -56,12 +56,13 @@ class RingWriter {
 
     /// Makes the writer measure the age of the next message, in addition to the regular samples.
     void sample_next() { producer_.sample_next(); }
-    /// Calls sample_next() at most once in 0.1 to 0.5 s, by the time-stamp counter; reads no clock. For senders whose
+    /// Calls sample_next() at most once in 0.1 to 0.5 s, by the processor's counter; reads no clock. For senders whose
     /// readers sleep: otherwise each message would take the longer path.
     void sample_next_sometimes() {
-        constexpr std::uint64_t pause = std::uint64_t{1} << 29; // ticks; a second has 1e9 to 5e9
-        const std::uint64_t ticks = time_stamp_counter();
-        if (ticks - sampled_at_ticks_ < pause) return; // never true if the counter went back on another core
+        constexpr std::uint64_t pause_ns = std::uint64_t{1} << 29; // of the slowest counter
+        const std::uint64_t ticks = Processor::counter();
+        // Never true if the counter went back on another core.
+        if (ticks - sampled_at_ticks_ < ticks_within(pause_ns)) return;
         sampled_at_ticks_ = ticks;
         sample_next();
     }

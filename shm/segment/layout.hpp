@@ -45,9 +45,10 @@ using Word64 = std::atomic<std::uint64_t>;
 static_assert(Word32::is_always_lock_free && sizeof(Word32) == 4);
 static_assert(Word64::is_always_lock_free && sizeof(Word64) == 8);
 
-constexpr std::uint64_t magic = 0x31304d45444e4154; // "TANDEM01" read as bytes
-constexpr std::uint32_t layout_version = 10;
-constexpr std::size_t page = 4096;
+// "TANDEM01", read as bytes by a processor with the byte order of the one that has made the file
+constexpr std::uint64_t magic = 0x31304d45444e4154;
+constexpr std::uint32_t layout_version = 11;
+constexpr std::size_t page = 4096; // unit of arenas and chunks, whatever pages the kernel has
 constexpr std::size_t line = 64;
 constexpr std::size_t line_pair = 128;
 constexpr std::size_t max_objects = 512;
@@ -65,7 +66,8 @@ struct SegmentHeader {
     std::uint64_t created_ns; // CLOCK_MONOTONIC
     std::uint64_t
         superseded_by; // newer generation, written by its creator; 0 = none. Read by std::atomic_ref
-    std::byte unused[4096 - 88];
+    std::uint32_t line_bytes, page_bytes; // `line` and `page` of the build that has made the file
+    std::byte unused[page - 96];
 };
 
 /// What the owner of a doorbell does, and so what a ringer has to do. awake: set bits. asleep: set bits and
@@ -108,7 +110,7 @@ struct alignas(line_pair) SideHeader {
 static_assert(offsetof(SegmentHeader, contract) == 16);
 static_assert(offsetof(SegmentHeader, arena_offset) == 40);
 static_assert(offsetof(SegmentHeader, superseded_by) == 80);
-static_assert(sizeof(SegmentHeader) == page);
+static_assert(offsetof(SegmentHeader, line_bytes) == 88 && sizeof(SegmentHeader) == page);
 static_assert(sizeof(DoorbellWords) == line_pair);
 static_assert(sizeof(DirectoryEntry) == 128 && offsetof(DirectoryEntry, offset) == 112);
 static_assert(offsetof(SideHeader, pid_namespace) == 16 && offsetof(SideHeader, doorbell) == 128);

@@ -25,14 +25,17 @@ std::uint64_t inode_of(const char* file) {
     return stat(file, &status) == 0 ? status.st_ino : 0;
 }
 
-/// Fields of /proc/PID/stat.
+/// Fields of /proc/PID/task/PID/stat.
 struct ProcessStatus {
     char state = 0;
     std::uint64_t threads = 0, start_ticks = 0;
 };
 
-std::optional<ProcessStatus> read_status(const char* path) {
-    const FileDescriptor file(::open(path, O_RDONLY | O_CLOEXEC));
+/// Reads the file of the main thread: in that of the process, qemu-user shows a process a start time of its own.
+std::optional<ProcessStatus> read_status(std::uint32_t pid) {
+    std::array<char, 48> path; // without an allocation
+    std::snprintf(path.data(), path.size(), "/proc/%u/task/%u/stat", pid, pid);
+    const FileDescriptor file(::open(path.data(), O_RDONLY | O_CLOEXEC));
     std::array<char, 1024> buffer; // the longest line has 52 numbers
     const ssize_t size = file ? read(file.get(), buffer.data(), buffer.size()) : 0;
     std::string_view rest(buffer.data(), size > 0 ? static_cast<std::size_t>(size) : 0);
@@ -68,9 +71,10 @@ bool proc_shows_this_namespace() {
 } // namespace
 
 ProcessIdentity identify_this_process() {
-    const auto status = read_status("/proc/self/stat");
-    return {static_cast<std::uint32_t>(getpid()), inode_of("/proc/self/ns/pid"),
-            inode_of("/proc/self/ns/time"), status ? status->start_ticks : 0};
+    const auto pid = static_cast<std::uint32_t>(getpid());
+    const auto status = read_status(pid);
+    return {pid, inode_of("/proc/self/ns/pid"), inode_of("/proc/self/ns/time"),
+            status ? status->start_ticks : 0};
 }
 
 ProcessLookup find_process(const ProcessIdentity& identity) {
@@ -79,9 +83,7 @@ ProcessLookup find_process(const ProcessIdentity& identity) {
         return ProcessLookup::elsewhere;
     if (::kill(static_cast<pid_t>(identity.pid), 0) != 0 && errno == ESRCH) return ProcessLookup::ended;
     if (!proc_shows_this_namespace()) return ProcessLookup::elsewhere;
-    std::array<char, 32> path; // without an allocation
-    std::snprintf(path.data(), path.size(), "/proc/%u/stat", identity.pid);
-    const auto status = read_status(path.data());
+    const auto status = read_status(identity.pid);
     if (!status) return ProcessLookup::elsewhere; // /proc may hide it
     if (is_zombie(*status)) return ProcessLookup::ended;
     const bool comparable = identity.start_ticks != 0 && status->start_ticks != 0 &&

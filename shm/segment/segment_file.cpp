@@ -187,16 +187,37 @@ bool still_named(int fd) {
 
 void announce_change(int fd) { futimens(fd, nullptr); }
 
+namespace {
+
+/// Throws Error unless this process means by the bytes of the segment what the one means that has made it.
+void check_layout(const layout::SegmentHeader& header, const std::string& path) {
+    const auto refuse = [&](const std::string& theirs, const std::string& ours) {
+        throw Error(path + ": has " + theirs + ", this process has " + ours +
+                    "; use one build of Tandem on both sides");
+    };
+    if (header.magic == __builtin_bswap64(layout::magic)) refuse("the other byte order", "its own");
+    if (header.magic != layout::magic)
+        throw Error(path + ": is not a Tandem segment; remove it or choose another link name");
+    if (header.layout_version != layout::layout_version)
+        refuse("layout version " + std::to_string(header.layout_version),
+               std::to_string(layout::layout_version));
+    const auto units = [](std::size_t line, std::size_t page) {
+        return std::to_string(line) + " and " + std::to_string(page);
+    };
+    if (header.line_bytes != layout::line || header.page_bytes != layout::page)
+        refuse("lines and pages of " + units(header.line_bytes, header.page_bytes) + " bytes",
+               units(layout::line, layout::page));
+}
+
+} // namespace
+
 layout::SegmentHeader read_header(int fd, const std::string& path, std::uint64_t contract) {
     layout::SegmentHeader header{};
     struct stat file {};
     const auto got = pread(fd, static_cast<void*>(&header), sizeof header, 0);
-    if (got != static_cast<ssize_t>(sizeof header) || fstat(fd, &file) != 0 || header.magic != layout::magic)
+    if (got != static_cast<ssize_t>(sizeof header) || fstat(fd, &file) != 0)
         throw Error(path + ": is not a Tandem segment; remove it or choose another link name");
-    if (header.layout_version != layout::layout_version)
-        throw Error(path + ": has layout version " + std::to_string(header.layout_version) +
-                    ", this process has " + std::to_string(layout::layout_version) +
-                    "; use one build of Tandem on both sides");
+    check_layout(header, path);
     if (header.contract != contract)
         throw Error(path + ": has contract version " + std::to_string(header.contract) +
                     ", this process has " + std::to_string(contract) +

@@ -2,7 +2,6 @@
 #include "shm/segment/truncation_guard.hpp"
 
 #include "shm/os/error.hpp"
-#include "shm/segment/layout.hpp"
 
 #include <array>
 #include <atomic>
@@ -24,6 +23,8 @@ struct Range {
 };
 std::array<Range, 256> ranges;
 struct sigaction previous_action {};
+const auto kernel_page =
+    static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE)); // a signal handler must not ask for it
 
 // How long a thread waits for another thread that is replacing pages. That thread may have been stopped by a signal, and
 // does not exist in the child of a fork().
@@ -55,7 +56,7 @@ bool replace_lost_pages(std::uintptr_t address) {
         const std::uintptr_t end = range.end.load(std::memory_order_acquire);
         const std::uintptr_t begin = range.begin.load(std::memory_order_acquire);
         if (address < begin || address >= end) continue;
-        return replace_lost_pages(range, address - address % layout::page);
+        return replace_lost_pages(range, address - address % kernel_page);
     }
     return false;
 }

@@ -23,7 +23,7 @@ ALLOWED = {
     "host/text": [],
     "host/log": ["host/text", "shm/os"],
     "host/plugin": ["host/process"],
-    "host/rt": ["host/process", "host/crash"],
+    "host/rt": ["host/process", "host/crash", "shm/os"],
     "host/options": ["host/plugin", "host/rt", "host/process", "host/text"],
     "host/opros/runtime/archive": [],
     "host/opros/runtime/port": ["host/opros/runtime/archive", "host/rt"],

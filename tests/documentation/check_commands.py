@@ -24,7 +24,7 @@ NOT_RUN_HERE = {
     "measures for minutes, and has a test of its own (tests/apps/bench/interface_types_test.cpp)": ["apps/bench/interface_types/measure.py"],
     "draws what a reader has measured": ["apps/bench/report.py"],
     "needs another machine": ["ssh", "connect.sh"],
-    "builds or tests the whole tree, as whoever runs this test has done": ["cmake", "ctest", "cpack", "tests/run.sh", "tests/lint.sh",
+    "builds or tests the whole tree, as whoever runs this test has done": ["cmake", "ctest", "cpack", "tests/run.sh", "tests/lint.sh", "tests/arm64.sh",
                                                                        "apps/run-wheelchair.sh", "apps/bench/run.sh", ".ci/run",
                                                                        "clang-format", "git"],
     "is about a component of the reader's": ["gdb", "addr2line", "ln"],

@@ -12,7 +12,7 @@
 
 using namespace tandem::shm;
 using namespace tandem::shm::test;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 

@@ -7,7 +7,6 @@
 
 #include <csignal>
 #include <sys/ptrace.h>
-#include <sys/user.h>
 
 namespace tandem::shm::test {
 
@@ -50,10 +49,10 @@ class Stepped {
         waitpid(pid_, &status_, 0); // its SIGSTOP
         for (unsigned stop = 0; WIFSTOPPED(status_); ++stop) {
             if (stop != 0) {
-                user_regs_struct registers{};
-                ptrace(PTRACE_GETREGS, pid_, nullptr, &registers);
-                last_call_ = registers.orig_rax;
-                entered_ = stop % 2 == 1;
+                __ptrace_syscall_info call{};
+                ptrace(PTRACE_GET_SYSCALL_INFO, pid_, sizeof call, &call);
+                entered_ = call.op == PTRACE_SYSCALL_INFO_ENTRY;
+                if (entered_) last_call_ = call.entry.nr;
             }
             if (stop == k) kill(pid_, SIGKILL);
             ptrace(PTRACE_SYSCALL, pid_, nullptr, nullptr);
@@ -63,7 +62,7 @@ class Stepped {
 
     pid_t pid_ = 0;
     int status_ = 0;
-    unsigned long long last_call_ = 0;
+    std::uint64_t last_call_ = 0;
     bool entered_ = false;
 };
 

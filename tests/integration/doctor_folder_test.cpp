@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <vector>
 
-using Catch::Matchers::Contains;
+using Catch::Contains;
 using Json = nlohmann::json;
 
 namespace {

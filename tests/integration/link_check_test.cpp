@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 TEST_CASE("link check prints each port with its peer, both signatures and the conversion") {
     JoinedFolder folder;

@@ -6,7 +6,7 @@
 
 #include <fstream>
 
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 

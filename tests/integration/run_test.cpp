@@ -15,7 +15,7 @@
 #include <thread>
 #include <unistd.h>
 
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 

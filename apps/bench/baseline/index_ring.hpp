@@ -5,6 +5,7 @@
 #pragma once
 #include "apps/bench/harness/case.hpp"
 #include "apps/bench/machine/clock.hpp"
+#include "shm/os/processor.hpp"
 
 #include <atomic>
 #include <linux/futex.h>
@@ -74,7 +75,7 @@ class IndexRing {
         peer_index_ = header_.head.load(std::memory_order_acquire);
         if (peer_index_ != own_index_) return true;
         if (tuning == RingTuning::throughput)
-            _mm_pause();
+            shm::Processor::pause();
         else
             __builtin_prefetch(slot(own_index_));
         return false;

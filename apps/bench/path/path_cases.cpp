@@ -214,7 +214,6 @@ void add_road(Registry& registry, const char* name, Road road) {
 } // namespace
 
 void add_path_cases(Registry& registry) {
-#if defined(__x86_64__)
     for (const Side side : {Side::sender, Side::receiver})
         add_side(registry, Group::baseline, "minimal-ring", sizeof(Values), side,
                  [side](Session& session) { measure_minimal_ring(session, side); });
@@ -222,9 +221,6 @@ void add_path_cases(Registry& registry) {
     add_road(registry, "rtm-to-opros", Road::rtm_to_opros);
     add_road(registry, "inside-opros", Road::inside_opros);
     add_road(registry, "inside-rtm", Road::inside_rtm);
-#else
-    registry.skipped.push_back({"path", "instructions are counted on x86-64 only"});
-#endif
 }
 
 } // namespace tandem::bench

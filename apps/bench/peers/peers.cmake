@@ -3,7 +3,7 @@
 # add_NAME_cases(), and one tandem_bench_peer() below. One that needs a package of peers.txt is optional: without it the
 # program names it as skipped.
 find_package(PkgConfig REQUIRED)
-find_package(Boost 1.74 REQUIRED)
+find_package(Boost 1.74 REQUIRED CONFIG)
 
 # tandem_bench_peer(NAME FOUND PACKAGES [LIBRARIES ...] [SOURCES more files...])
 # Builds peers/NAME.cpp into the program if FOUND is true. PACKAGES: what to install otherwise.

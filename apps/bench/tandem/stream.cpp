@@ -7,9 +7,9 @@
 #include "apps/bench/measurements/paired.hpp"
 #include "apps/bench/measurements/ring_cases.hpp"
 #include "apps/bench/tandem/ring_endpoint.hpp"
+#include "shm/os/processor.hpp"
 
 #include <cstring>
-#include <emmintrin.h>
 
 namespace tandem::bench {
 
@@ -41,7 +41,8 @@ class StreamEndpoint {
             const auto record = in_.read();
             if (!record) {
                 if (is_short)
-                    _mm_pause(); // leaves the writer its cache line; the minimal ring's reader does the same
+                    shm::Processor::
+                        pause(); // leaves the writer its cache line; the minimal ring's reader does the same
                 continue;
             }
             // Before the content is used: a large message is used longer than the credit travels.

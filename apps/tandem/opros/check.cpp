@@ -292,7 +292,8 @@ bool check_component(const ApplicationProfile& application, const engine::Subcom
         // Skips properties that the application sets; the profile need not contain them. Other missing properties may
         // be optional.
         for (const auto& absent : description["absent_properties"]) {
-            const auto is_it = [&](const auto& property) { return property.first == absent["name"]; };
+            const std::string name = absent["name"];
+            const auto is_it = [&](const auto& property) { return property.first == name; };
             if (std::any_of(entry.properties.begin(), entry.properties.end(), is_it)) continue;
             (absent["misspelt"] ? findings.lines : findings.notes).push_back(absent["line"]);
         }

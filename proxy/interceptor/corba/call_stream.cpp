@@ -66,8 +66,8 @@ _CORBA_Boolean CallStream::checkInputOverrun(_CORBA_ULong size, _CORBA_ULong cou
 }
 
 // Only distances mean something.
-_CORBA_ULong CallStream::currentInputPtr() const {
-    return static_cast<_CORBA_ULong>(reinterpret_cast<omni::ptr_arith_t>(pd_inb_mkr));
+CallStream::Position CallStream::currentInputPtr() const {
+    return static_cast<Position>(reinterpret_cast<omni::ptr_arith_t>(pd_inb_mkr));
 }
 
 // Called when less than a value is left.

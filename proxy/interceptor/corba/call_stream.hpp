@@ -24,12 +24,12 @@ class CallStream final : public StampedStream {
     void get_octet_array(_CORBA_Octet* to, int size, omni::alignment_t alignment) override;
     void skipInput(_CORBA_ULong size) override;
     _CORBA_Boolean checkInputOverrun(_CORBA_ULong size, _CORBA_ULong count, omni::alignment_t) override;
-    _CORBA_ULong currentInputPtr() const override;
+    Position currentInputPtr() const override;
     void fetchInputData(omni::alignment_t alignment, std::size_t bytes) override;
 
     void put_octet_array(const _CORBA_Octet* from, int size, omni::alignment_t alignment) override;
     _CORBA_Boolean checkOutputOverrun(_CORBA_ULong, _CORBA_ULong, omni::alignment_t) override { return true; }
-    _CORBA_ULong currentOutputPtr() const override { return static_cast<_CORBA_ULong>(used()); }
+    Position currentOutputPtr() const override { return static_cast<Position>(used()); }
     _CORBA_Boolean reserveOutputSpaceForPrimitiveType(omni::alignment_t, std::size_t bytes) override;
     _CORBA_Boolean maybeReserveOutputSpace(omni::alignment_t, std::size_t bytes) override;
 

@@ -80,9 +80,9 @@ _CORBA_Boolean StampedOutStream::checkOutputOverrun(_CORBA_ULong size, _CORBA_UL
 }
 
 // As if the body followed the time. An untimed message counts 8 bytes more, which changes no alignment.
-_CORBA_ULong StampedOutStream::currentOutputPtr() const {
-    return static_cast<_CORBA_ULong>(in_time_ ? distance(time_, pd_outb_mkr)
-                                              : time_bytes + distance(body_.data(), pd_outb_mkr));
+StampedStream::Position StampedOutStream::currentOutputPtr() const {
+    return static_cast<Position>(in_time_ ? distance(time_, pd_outb_mkr)
+                                          : time_bytes + distance(body_.data(), pd_outb_mkr));
 }
 
 _CORBA_Boolean StampedOutStream::reserveOutputSpaceForPrimitiveType(omni::alignment_t alignment,
@@ -119,9 +119,9 @@ _CORBA_Boolean StampedInStream::checkInputOverrun(_CORBA_ULong size, _CORBA_ULon
     return std::size_t{size} * count <= distance(pd_inb_mkr, pd_inb_end) + body_left;
 }
 
-_CORBA_ULong StampedInStream::currentInputPtr() const {
-    return static_cast<_CORBA_ULong>(in_time_ ? distance(time_, pd_inb_mkr)
-                                              : time_bytes + distance(body_.data(), pd_inb_mkr));
+StampedStream::Position StampedInStream::currentInputPtr() const {
+    return static_cast<Position>(in_time_ ? distance(time_, pd_inb_mkr)
+                                          : time_bytes + distance(body_.data(), pd_inb_mkr));
 }
 
 void StampedInStream::fetchInputData(omni::alignment_t alignment, std::size_t bytes) {

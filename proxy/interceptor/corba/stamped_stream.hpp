@@ -14,11 +14,13 @@ namespace tandem::interceptor {
 /// A CORBA stream over a series of messages, in the machine's byte order. A timed message begins with the 8 bytes of RTM's
 /// time, which travel in the record's header. If the memory before the payload is free, the time is put there, and the
 /// stream's inline functions handle everything. Otherwise the stream consists of two parts, `time_` and `body_`. Accesses
-/// beyond the end throw CORBA::MARSHAL. The overrides are those that omniORB 4.2 calls (omniORB4/cdrStream.h); the two
+/// beyond the end throw CORBA::MARSHAL. The overrides are those that omniORB 4.2 and 4.3 call (omniORB4/cdrStream.h); the two
 /// subclasses implement one direction each.
 class StampedStream : public cdrStream {
   public:
     static constexpr std::size_t time_bytes = 8;
+    /// CORBA::ULong in omniORB 4.2, size_t in 4.3.
+    using Position = decltype(std::declval<const cdrStream&>().currentInputPtr());
 
   protected:
     StampedStream();
@@ -33,8 +35,8 @@ class StampedStream : public cdrStream {
     _CORBA_Boolean checkOutputOverrun(_CORBA_ULong, _CORBA_ULong, omni::alignment_t) override {
         return false;
     }
-    _CORBA_ULong currentInputPtr() const override { return 0; }
-    _CORBA_ULong currentOutputPtr() const override { return 0; }
+    Position currentInputPtr() const override { return 0; }
+    Position currentOutputPtr() const override { return 0; }
     void fetchInputData(omni::alignment_t, std::size_t) override { throw_marshal(); }
     _CORBA_Boolean reserveOutputSpaceForPrimitiveType(omni::alignment_t, std::size_t) override {
         throw_marshal();
@@ -86,7 +88,7 @@ class StampedOutStream final : public StampedStream {
 
     void put_octet_array(const _CORBA_Octet* from, int size, omni::alignment_t alignment) override;
     _CORBA_Boolean checkOutputOverrun(_CORBA_ULong size, _CORBA_ULong count, omni::alignment_t) override;
-    _CORBA_ULong currentOutputPtr() const override;
+    Position currentOutputPtr() const override;
     _CORBA_Boolean reserveOutputSpaceForPrimitiveType(omni::alignment_t alignment,
                                                       std::size_t bytes) override;
     _CORBA_Boolean maybeReserveOutputSpace(omni::alignment_t alignment, std::size_t bytes) override;
@@ -105,7 +107,7 @@ class StampedInStream final : public StampedStream {
     void get_octet_array(_CORBA_Octet* to, int size, omni::alignment_t alignment) override;
     void skipInput(_CORBA_ULong size) override;
     _CORBA_Boolean checkInputOverrun(_CORBA_ULong size, _CORBA_ULong count, omni::alignment_t) override;
-    _CORBA_ULong currentInputPtr() const override;
+    Position currentInputPtr() const override;
     void fetchInputData(omni::alignment_t alignment, std::size_t bytes) override;
 };
 

@@ -11,7 +11,7 @@
 namespace tandem::command {
 namespace {
 
-using Catch::Matchers::Contains;
+using Catch::Contains;
 using nlohmann::json;
 
 json port(const char* name, const char* direction, const char* kind = "data") {

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 

@@ -73,7 +73,7 @@ TEST_CASE("calls given up at any moment never run twice, and all slots become fr
         Workers workers(calls.server, 2, [&](IncomingCall& call) {
             const std::size_t number = number_of(call);
             ++runs[number];
-            for (std::size_t pause = 0; pause < number % 97; ++pause) _mm_pause();
+            for (std::size_t pause = 0; pause < number % 97; ++pause) Processor::pause();
             echo(call);
         });
         std::vector<std::thread> threads;

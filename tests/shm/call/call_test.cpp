@@ -6,7 +6,7 @@
 
 using namespace tandem::shm;
 using namespace tandem::shm::test;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 TEST_CASE("a call carries its arguments to the worker and its results back") {
     CallPair calls;

@@ -3,7 +3,7 @@
 
 using namespace tandem::shm;
 using namespace tandem::shm::test;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 TEST_CASE("the peer sees all published objects at once") {
     Pair pair;

@@ -10,7 +10,7 @@
 
 using namespace tandem::shm;
 using namespace tandem::shm::test;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 

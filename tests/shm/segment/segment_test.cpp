@@ -11,7 +11,7 @@
 
 using namespace tandem::shm;
 using namespace tandem::shm::test;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 TEST_CASE("the first to join creates a file of mode 0600 and the last to leave removes it") {
     Link link;
@@ -80,6 +80,23 @@ TEST_CASE("another layout version is refused with both versions in the message")
     CHECK_THROWS_WITH(join(link, Side::second),
                       Contains("layout version " + std::to_string(version)) &&
                           Contains("has " + std::to_string(layout::layout_version)));
+}
+
+TEST_CASE("a segment of another build's units or byte order is refused with both in one line") {
+    Link link;
+    auto first = join(link, Side::first);
+    const FileDescriptor file(open(first->path().c_str(), O_RDWR | O_CLOEXEC));
+    const auto refused_after = [&](std::size_t offset, auto value, const std::string& message) {
+        REQUIRE(pwrite(file.get(), &value, sizeof value, static_cast<off_t>(offset)) == sizeof value);
+        CHECK_THROWS_WITH(join(link, Side::second),
+                          Contains(message) && Contains("use one build") && !Contains("\n"));
+    };
+    refused_after(offsetof(layout::SegmentHeader, line_bytes), std::uint32_t{128},
+                  "has lines and pages of 128 and 4096 bytes, this process has 64 and 4096");
+    refused_after(offsetof(layout::SegmentHeader, page_bytes), std::uint32_t{65536},
+                  "has lines and pages of 128 and 65536 bytes");
+    refused_after(offsetof(layout::SegmentHeader, magic), __builtin_bswap64(layout::magic),
+                  "has the other byte order");
 }
 
 TEST_CASE("a segment of another mode is refused while a side lives in it") {

@@ -134,5 +134,5 @@ TEST_CASE("a blob that claims more bytes than its file has memory for is not cop
     REQUIRE(pwrite(file.get(), &claimed, sizeof claimed,
                    static_cast<off_t>(entry + offsetof(layout::DirectoryEntry, bytes))) == sizeof claimed);
     CHECK_THROWS_WITH(second->copy_blob(Side::first, "table"),
-                      Catch::Matchers::Contains("blob 'table' of side first claims"));
+                      Catch::Contains("blob 'table' of side first claims"));
 }

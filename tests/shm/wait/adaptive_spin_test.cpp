@@ -65,7 +65,7 @@ TEST_CASE("a spin time below the minimum is not changed") {
 
 TEST_CASE("the tick length is computed from an interval that the clock has also measured") {
     const TickLength third(2'000, 6'000);  // a counter of 3 GHz, beside a short time of polling
-    CHECK(third.ns(90'000) / 1'000 == 29); // to 2^10 ticks
+    CHECK(third.ns(90'000) / 1'000 == 29); // rounded down
     CHECK(third.ns(std::uint64_t{24} * 3600 * 3'000'000'000) / 1'000'000'000 ==
           24 * 3600 - 1); // rounded down
     CHECK(TickLength(2'000, 2'000).ns(1'024'000) == 1'024'000);

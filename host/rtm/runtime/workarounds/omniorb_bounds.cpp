@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Replaces omniORB 4.2's function of the same name, which trusts the length in a message. A length of 2^31 or more, of
-// a string in an `any`, makes that function write beyond its buffer. omniORB calls it through the dynamic symbol table,
-// which finds the definition in this library first.
+// Replaces a function of omniORB 4.2 and 4.3, which trusts the length in a message. A length of 2^31 or more, of a string
+// in an `any`, makes that function write beyond its buffer. omniORB calls it through the dynamic symbol table, which finds
+// the definition in this library first.
 #include <algorithm>
 #include <array>
 #include <omniORB4/CORBA.h>

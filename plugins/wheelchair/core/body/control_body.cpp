@@ -14,15 +14,12 @@ ControlParameters control_parameters(const Settings& settings) {
     return parameters;
 }
 
-/// Waits about a third of a microsecond between two polls of the port. Without a pause, a sender would almost always
-/// find the port's lock taken by this poller.
+/// Waits between two polls of the port. Without a pause, a sender would almost always find the port's lock taken by this
+/// poller.
 void pause_between_polls() {
-    for (int i = 0; i < 8; ++i) {
-#if defined(__x86_64__)
-        __builtin_ia32_pause();
-#elif defined(__aarch64__)
-        asm volatile("yield");
-#endif
+    constexpr double pause_seconds = 3e-7;
+    const double end = monotonic_seconds() + pause_seconds;
+    while (monotonic_seconds() < end) {
     }
 }
 

@@ -9,7 +9,7 @@
 using namespace tandem::monitor;
 using namespace tandem::monitor::test;
 using namespace std::chrono_literals;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 

@@ -8,7 +8,7 @@
 
 using namespace tandem::monitor;
 using namespace tandem::monitor::test;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 

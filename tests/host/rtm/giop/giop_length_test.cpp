@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A false length within an `any`, in a request that is valid otherwise: omniORB 4.2 writes beyond its buffer then,
-// which host/rtm/runtime/manager/omniorb_bounds.cpp prevents.
+// A false length within an `any`, in a request that is valid otherwise: omniORB 4.2 and 4.3 write beyond their buffer then,
+// which host/rtm/runtime/workarounds/omniorb_bounds.cpp prevents.
 #include "giop_message.hpp"
 #include "tests/host/rtm/manager_fixture.hpp"
 #include "tests/host/rtm/remote_host.hpp"
