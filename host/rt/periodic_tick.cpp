@@ -4,25 +4,24 @@
 #include "host/rt/rehearsal.hpp"
 
 #include <algorithm>
-#include <cerrno>
+#include <climits>
 #include <ctime>
+#include <linux/futex.h>
 #include <stdexcept>
 #include <string>
+#include <sys/syscall.h>
+#include <unistd.h>
 
 namespace tandem::rt {
 namespace {
 
 constexpr std::int64_t second_ns = 1'000'000'000;
-// A sleeping thread sees the flag that interrupt() sets only when it wakes. A long wait is therefore divided into
-// sleeps of this length. A period up to this length costs one system call.
-constexpr std::int64_t max_sleep_ns = 100'000'000;
 
-// Sleeps until an absolute time: a relative sleep would add the time between reading the clock and sleeping to every
-// period.
-void sleep_until(std::int64_t when) {
+// Sleeps until an absolute time of CLOCK_MONOTONIC, but only while `interrupted` is 0: a relative sleep would add the time
+// between reading the clock and sleeping to every period.
+void sleep_until(std::int64_t when, std::atomic<std::uint32_t>& interrupted) {
     const timespec at{static_cast<time_t>(when / second_ns), static_cast<long>(when % second_ns)};
-    while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &at, nullptr) == EINTR) {
-    }
+    syscall(SYS_futex, &interrupted, FUTEX_WAIT_BITSET_PRIVATE, 0, &at, nullptr, FUTEX_BITSET_MATCH_ANY);
 }
 
 // Tells the processor that this is a polling loop. This saves power and leaves the core to its other hyper-thread.
@@ -132,7 +131,7 @@ void PeriodicTick::sleep_until_next() {
     std::int64_t now = monotonic_ns();
     const bool sleeps = now < poll_from;
     while (now < poll_from && !interrupted()) {
-        sleep_until(std::min(poll_from, now + max_sleep_ns));
+        sleep_until(poll_from, interrupted_);
         now = monotonic_ns();
     }
     if (sleeps && now >= poll_from) note_wake_up(now - poll_from);
@@ -152,6 +151,11 @@ void PeriodicTick::note_due(std::int64_t when) {
 void PeriodicTick::begin_cycle() { note_due(monotonic_ns() + period_); }
 
 void PeriodicTick::rest() { note_due(0); }
+
+void PeriodicTick::interrupt() noexcept {
+    interrupted_.store(1);
+    syscall(SYS_futex, &interrupted_, FUTEX_WAKE_PRIVATE, INT_MAX, nullptr, nullptr, 0);
+}
 
 std::uint64_t PeriodicTick::wait() {
     if (interrupted()) {

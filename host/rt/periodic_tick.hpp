@@ -67,9 +67,9 @@ class PeriodicTick {
     /// Returns the memory in which the thread's callbacks are published for readers outside the process.
     crash::CallbackText& callback_text() const { return slot_->callback; }
 
-    /// Makes the current and all later calls of wait() return within 100 ms without a tick. [any-thread]
-    void interrupt() noexcept { interrupted_.store(true, std::memory_order_relaxed); }
-    bool interrupted() const noexcept { return interrupted_.load(std::memory_order_relaxed); }
+    /// Makes the current and all later calls of wait() return at once without a tick. [any-thread]
+    void interrupt() noexcept;
+    bool interrupted() const noexcept { return interrupted_.load(std::memory_order_relaxed) != 0; }
 
     /// Returns the planned time of the current tick, in ns of CLOCK_MONOTONIC. [tick-thread]
     std::int64_t planned_ns() const noexcept { return next_; }
@@ -97,7 +97,7 @@ class PeriodicTick {
     bool started_ = false;
     std::int64_t wake_up_ = 0; // what waking up takes, as far as known; only of a default spin
     std::int64_t next_ = 0;    // planned time of the coming, then of the current tick
-    std::atomic<bool> interrupted_{false};
+    std::atomic<std::uint32_t> interrupted_{0}; // a futex
     const OwnTickSlot slot_;
 };
 

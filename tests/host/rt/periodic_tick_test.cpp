@@ -119,6 +119,19 @@ TEST_CASE("an interrupted tick ends a long wait without counting a tick") {
     CHECK(tick.stats().ticks == 0);
 }
 
+TEST_CASE("ticks that are interrupted one after the other do not wait for their times") {
+    PeriodicTick clock({.period = 90ms});
+    clock.wait();
+    for (int i = 0; i < 100; ++i) {
+        PeriodicTick tick({.period = 1h});
+        std::thread waiter([&] { tick.wait(); });
+        std::this_thread::sleep_for(1ms); // most threads are asleep by then
+        tick.interrupt();
+        waiter.join();
+    }
+    CHECK(clock.wait() < 50);
+}
+
 TEST_CASE("a period of zero is refused") {
     CHECK_THROWS_AS(PeriodicTick({.period = 0ns}), std::invalid_argument);
 }

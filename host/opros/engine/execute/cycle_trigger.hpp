@@ -19,8 +19,7 @@ class CycleTrigger {
     virtual ~CycleTrigger() = default;
     /// [executor] Waits until the next cycle is due and returns true. Returns false after interrupt().
     virtual bool wait() = 0;
-    /// [any-thread] Makes the current wait and all later waits return false: within 100 ms for a periodic trigger, at
-    /// once for the others.
+    /// [any-thread] Makes the current wait and all later waits return false at once.
     virtual void interrupt() = 0;
     /// [any-thread] Returns the trigger's kind and counters in words.
     virtual std::string stats() const = 0;
