@@ -23,6 +23,8 @@ class CycleTrigger {
     virtual void interrupt() = 0;
     /// [any-thread] Returns the trigger's kind and counters in words.
     virtual std::string stats() const = 0;
+    /// Returns the ticks of a periodic trigger; NULL: another one.
+    virtual rt::PeriodicTick* tick() { return nullptr; }
     /// Returns where the executor publishes the callback that it is in; NULL: nowhere.
     virtual crash::CallbackText* callback_text() const { return nullptr; }
 };
