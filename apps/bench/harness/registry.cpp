@@ -36,6 +36,7 @@ Registry all_cases() {
     add_publish_count_cases(registry);
     add_rtm_cases(registry);
     add_wheelchair_cases(registry);
+    add_scale_cases(registry);
     add_path_cases(registry);
     add_peer_cases(registry);
     // Comparison keys keep the order in which they first appear above, and so do the cases within a key.
