@@ -1,44 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rt/periodic_tick.hpp"
 
-#include "host/rt/rehearsal.hpp"
 #include "shm/os/processor.hpp"
 
 #include <algorithm>
-#include <cerrno>
+#include <climits>
 #include <ctime>
+#include <linux/futex.h>
 #include <stdexcept>
 #include <string>
+#include <sys/syscall.h>
+#include <unistd.h>
 
 namespace tandem::rt {
 namespace {
 
 constexpr std::int64_t second_ns = 1'000'000'000;
-// A sleeping thread sees the flag that interrupt() sets only when it wakes. A long wait is therefore divided into
-// sleeps of this length. A period up to this length costs one system call.
-constexpr std::int64_t max_sleep_ns = 100'000'000;
 
-// Sleeps until an absolute time: a relative sleep would add the time between reading the clock and sleeping to every
-// period.
-void sleep_until(std::int64_t when) {
+// Sleeps until an absolute time of CLOCK_MONOTONIC, but only while `interrupted` is 0: a relative sleep would add the time
+// between reading the clock and sleeping to every period.
+void sleep_until(std::int64_t when, std::atomic<std::uint32_t>& interrupted) {
     const timespec at{static_cast<time_t>(when / second_ns), static_cast<long>(when % second_ns)};
-    while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &at, nullptr) == EINTR) {
-    }
+    syscall(SYS_futex, &interrupted, FUTEX_WAIT_BITSET_PRIVATE, 0, &at, nullptr, FUTEX_BITSET_MATCH_ANY);
 }
 
 // Tells the processor that this is a polling loop. This saves power and leaves the core to its other hyper-thread.
 void relax() { shm::Processor::pause(); }
 
-constexpr std::int64_t million = 1'000'000;
-constexpr std::int64_t default_spin_ns = 100'000;
-constexpr std::int64_t default_spin_part = 20; // divisor of the period: upper limit
-constexpr std::int64_t max_wake_up_part = 10;  // divisor of the period: upper limit
 // The rehearsal is repeated between these two times before a tick, while the time left is at least twice the last
 // rehearsal.
 constexpr std::int64_t repeat_from_ns = 100'000;
 constexpr std::int64_t repeat_to_ns = 2'000;
-constexpr std::int64_t default_spin_limit = million / 10;
-std::atomic<std::int64_t> default_spin_sum{0}; // of all ticks of the process; in millionths of a processor
 
 } // namespace
 
@@ -48,10 +40,16 @@ std::int64_t monotonic_ns() noexcept {
     return now.tv_sec * second_ns + now.tv_nsec;
 }
 
+std::int64_t next_on_grid(std::int64_t now, std::int64_t period, std::int64_t phase) noexcept {
+    // The outer modulo makes the remainder positive when `now` lies before the phase.
+    const std::int64_t origin = grid_origin.count() + phase,
+                       into_period = ((now - origin) % period + period) % period;
+    return now - into_period + period;
+}
+
 PeriodicTick::PeriodicTick(const TickOptions& options)
-    : period_(options.period.count()), phase_((grid_origin + options.phase).count()),
-      spin_(options.spin ? options.spin->count() : take_default_spin()), aligned_(options.aligned),
-      rehearse_(options.rehearse),
+    : period_(options.period.count()), phase_(options.phase.count()), aligned_(options.aligned),
+      polling_(options.spin, period_, options.rehearse),
       slot_(options.name,
             options.period.count() > 0 ? static_cast<std::uint64_t>(options.period.count()) : 1) {
     if (period_ <= 0)
@@ -59,27 +57,9 @@ PeriodicTick::PeriodicTick(const TickOptions& options)
                                     std::to_string(period_));
 }
 
-PeriodicTick::~PeriodicTick() { default_spin_sum.fetch_sub(default_spin_share_); }
-
-std::int64_t PeriodicTick::take_default_spin() {
-    if (period_ <= 0) return 0;
-    const std::int64_t spin = std::min(default_spin_ns, period_ / default_spin_part),
-                       share = spin * million / period_;
-    if (default_spin_sum.fetch_add(share) + share > default_spin_limit) {
-        default_spin_sum.fetch_sub(share);
-        return 0;
-    }
-    default_spin_share_ = share;
-    return spin;
-}
-
 void PeriodicTick::plan_first(std::int64_t now) {
     started_ = true;
-    next_ = now;
-    if (!aligned_) return;
-    // The outer modulo makes the remainder positive when `now` lies before the phase.
-    const std::int64_t into_period = ((now - phase_) % period_ + period_) % period_;
-    next_ = now - into_period + period_;
+    next_ = aligned_ ? next_on_grid(now, period_, phase_) : now;
 }
 
 std::uint64_t PeriodicTick::plan_next(std::int64_t now) {
@@ -93,17 +73,6 @@ std::uint64_t PeriodicTick::plan_next(std::int64_t now) {
     return static_cast<std::uint64_t>(missed);
 }
 
-/// Returns how long before a tick the sleep ends. A thread that is waking up does not use its processor, so only the
-/// polling counts towards its share of the processor.
-std::int64_t PeriodicTick::lead() const { return default_spin_share_ == 0 ? spin_ : spin_ + wake_up_; }
-
-/// A longer wake-up counts at once, because the next long wake-up would leave no time for the rehearsal. A shorter
-/// wake-up counts gradually.
-void PeriodicTick::note_wake_up(std::int64_t delay) {
-    wake_up_ =
-        delay > wake_up_ ? std::min(delay, period_ / max_wake_up_part) : wake_up_ - (wake_up_ - delay) / 16;
-}
-
 /// Repeats the rehearsal, because the processor's branch prediction learns gradually, and because the caches must still
 /// hold everything when the tick comes. Returns the current time.
 std::int64_t PeriodicTick::poll_until_next(std::int64_t now) {
@@ -111,11 +80,8 @@ std::int64_t PeriodicTick::poll_until_next(std::int64_t now) {
     while (now < next_ && !interrupted()) {
         const std::int64_t begin = now, left = next_ - now;
         const bool again = left < repeat_from_ns && left > std::max(repeat_to_ns, 2 * took);
-        const bool rehearses = rehearse_ && (took == 0 || again);
-        if (rehearses) {
-            const Rehearsal rehearsal;
-            rehearse_();
-        }
+        const bool rehearses = polling_.can_rehearse() && (took == 0 || again);
+        if (rehearses) polling_.rehearse();
         relax();
         now = monotonic_ns();
         if (rehearses) took = std::max<std::int64_t>(now - begin, 1);
@@ -125,16 +91,22 @@ std::int64_t PeriodicTick::poll_until_next(std::int64_t now) {
 
 void PeriodicTick::sleep_until_next() {
     // Three phases: sleep, rehearse, poll.
-    const std::int64_t poll_from = next_ - lead();
+    polling_.review(monotonic_ns());
+    const std::int64_t poll_from = next_ - polling_.lead();
     std::int64_t now = monotonic_ns();
     const bool sleeps = now < poll_from;
     while (now < poll_from && !interrupted()) {
-        sleep_until(std::min(poll_from, now + max_sleep_ns));
+        sleep_until(poll_from, interrupted_);
         now = monotonic_ns();
     }
-    if (sleeps && now >= poll_from) note_wake_up(now - poll_from);
+    if (sleeps && now >= poll_from) polling_.note_wake_up(now - poll_from);
+    const std::int64_t woken = now;
     now = poll_until_next(now);
-    const std::int64_t lateness = now - next_;
+    polling_.note_polled(now - woken);
+    note_lateness(now - next_);
+}
+
+void PeriodicTick::note_lateness(std::int64_t lateness) {
     // This thread is the only writer, so no compare-and-exchange is needed.
     std::atomic_ref(slot_->lateness_ns_last).store(lateness, std::memory_order_relaxed);
     if (lateness > slot_->lateness_ns_max)
@@ -149,6 +121,11 @@ void PeriodicTick::note_due(std::int64_t when) {
 void PeriodicTick::begin_cycle() { note_due(monotonic_ns() + period_); }
 
 void PeriodicTick::rest() { note_due(0); }
+
+void PeriodicTick::interrupt() noexcept {
+    interrupted_.store(1);
+    syscall(SYS_futex, &interrupted_, FUTEX_WAKE_PRIVATE, INT_MAX, nullptr, nullptr, 0);
+}
 
 std::uint64_t PeriodicTick::wait() {
     if (interrupted()) {
@@ -166,6 +143,18 @@ std::uint64_t PeriodicTick::wait() {
     note_due(interrupted() ? 0 : next_ + period_);
     if (!interrupted()) count(slot_->ticks);
     return missed;
+}
+
+void PeriodicTick::tick_at(std::int64_t planned) {
+    if (const std::int64_t missed = started_ ? (planned - next_) / period_ - 1 : 0; missed > 0) {
+        count(slot_->overruns);
+        count(slot_->skipped, static_cast<std::uint64_t>(missed));
+    }
+    started_ = true;
+    next_ = planned;
+    note_lateness(monotonic_ns() - planned);
+    note_due(interrupted() ? 0 : planned + period_);
+    if (!interrupted()) count(slot_->ticks);
 }
 
 TickStats PeriodicTick::stats() const {

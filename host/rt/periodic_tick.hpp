@@ -3,6 +3,7 @@
 #pragma once
 
 #include "host/rt/tick_page.hpp"
+#include "host/rt/tick_polling.hpp"
 
 #include <atomic>
 #include <chrono>
@@ -27,12 +28,12 @@ struct TickOptions {
     /// communicating. Otherwise the grid starts at the first wait(), which returns at once.
     bool aligned = true;
     /// Time before each tick in which the thread polls the clock instead of sleeping. Default (nullopt): 100 us, but at most
-    /// a twentieth of the period. The sleep then ends earlier by the duration of this thread's recent wake-ups (20 to 100 us
-    /// on virtual machines), but at most by a tenth of the period. A thread does not poll if all default ticks of the process
-    /// would together poll for more than a tenth of a processor.
+    /// a twentieth of the period, and only while messages cross that a rehearsal has reached (TickPolling). The sleep then
+    /// ends earlier by the duration of this thread's recent wake-ups (20 to 100 us on virtual machines), but at most by a
+    /// tenth of the period.
     std::optional<std::chrono::nanoseconds> spin = std::chrono::nanoseconds(0);
     /// Is called as a Rehearsal (rehearsal.hpp) when polling begins, and repeatedly in the last 100 us before the tick while
-    /// time permits. [tick-thread]
+    /// time permits. By default also a few times a second, to see whether messages cross. [tick-thread]
     std::function<void()> rehearse{};
     /// The owner of the ticks, for observers outside the process (tick_page.hpp).
     std::string name{};
@@ -52,13 +53,15 @@ class PeriodicTick {
   public:
     /// Throws std::invalid_argument unless period > 0.
     explicit PeriodicTick(const TickOptions& options);
-    ~PeriodicTick();
     PeriodicTick(const PeriodicTick&) = delete;
     PeriodicTick& operator=(const PeriodicTick&) = delete;
 
     /// Waits for the next tick and returns the number of skipped periods. If the work since the last tick took too long, a
     /// tick late by less than one period comes at once, and older ticks are skipped. The grid does not change. [tick-thread]
     std::uint64_t wait();
+
+    /// Counts a tick that another object has waited for, planned for this time of CLOCK_MONOTONIC in ns. [tick-thread]
+    void tick_at(std::int64_t planned);
 
     /// Reports that a cycle begins without wait(): the first cycle after rest(). [tick-thread]
     void begin_cycle();
@@ -67,9 +70,9 @@ class PeriodicTick {
     /// Returns the memory in which the thread's callbacks are published for readers outside the process.
     crash::CallbackText& callback_text() const { return slot_->callback; }
 
-    /// Makes the current and all later calls of wait() return within 100 ms without a tick. [any-thread]
-    void interrupt() noexcept { interrupted_.store(true, std::memory_order_relaxed); }
-    bool interrupted() const noexcept { return interrupted_.load(std::memory_order_relaxed); }
+    /// Makes the current and all later calls of wait() return at once without a tick. [any-thread]
+    void interrupt() noexcept;
+    bool interrupted() const noexcept { return interrupted_.load(std::memory_order_relaxed) != 0; }
 
     /// Returns the planned time of the current tick, in ns of CLOCK_MONOTONIC. [tick-thread]
     std::int64_t planned_ns() const noexcept { return next_; }
@@ -78,31 +81,28 @@ class PeriodicTick {
     TickStats stats() const;
 
   private:
-    std::int64_t take_default_spin();
     void plan_first(std::int64_t now);
     std::uint64_t plan_next(std::int64_t now);
     void sleep_until_next();
     std::int64_t poll_until_next(std::int64_t now);
-    std::int64_t lead() const;
-    void note_wake_up(std::int64_t delay);
+    void note_lateness(std::int64_t lateness);
     void note_due(std::int64_t when);
 
     const std::int64_t period_;
-    const std::int64_t phase_; // offset from zero of the clock, grid_origin included; all times in ns
-    std::int64_t default_spin_share_ =
-        0; // of a processor, in millionths, taken from what all may poll together
-    const std::int64_t spin_;
+    const std::int64_t phase_; // from grid_origin; all times in ns
     const bool aligned_;
-    const std::function<void()> rehearse_;
+    TickPolling polling_;
     bool started_ = false;
-    std::int64_t wake_up_ = 0; // what waking up takes, as far as known; only of a default spin
-    std::int64_t next_ = 0;    // planned time of the coming, then of the current tick
-    std::atomic<bool> interrupted_{false};
+    std::int64_t next_ = 0;                     // planned time of the coming, then of the current tick
+    std::atomic<std::uint32_t> interrupted_{0}; // a futex
     const OwnTickSlot slot_;
 };
 
 /// Returns CLOCK_MONOTONIC in ns. [any-thread]
 std::int64_t monotonic_ns() noexcept;
+
+/// Returns the first tick of the grid of aligned ticks after `now`. All times in ns. [any-thread]
+std::int64_t next_on_grid(std::int64_t now, std::int64_t period, std::int64_t phase) noexcept;
 
 /// Time after which a rehearsal starts with no further port, so that a component with many ports is not late for its tick.
 inline constexpr std::int64_t rehearsal_limit_ns = 50'000;

@@ -79,6 +79,7 @@ class alignas(layout::line_pair) RingProducer {
         room_end_ = 0; // forces the path through commit()
     }
 
+    std::uint64_t sent() const { return sent_; }
     bool corrupt() const { return corrupt_; }
     std::uint64_t max_message() const { return std::max(ring_.max_record, ring_.chunk_bytes); }
 

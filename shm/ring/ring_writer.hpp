@@ -54,6 +54,9 @@ class RingWriter {
     /// Loads what publish() of this length needs into the caches. Publishes nothing.
     void rehearse_publish(std::size_t used);
 
+    /// Returns counters().sent without reading shared memory.
+    std::uint64_t sent() const { return producer_.sent(); }
+
     /// Makes the writer measure the age of the next message, in addition to the regular samples.
     void sample_next() { producer_.sample_next(); }
     /// Calls sample_next() at most once in 0.1 to 0.5 s, by the processor's counter; reads no clock. For senders whose

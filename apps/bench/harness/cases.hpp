@@ -23,6 +23,7 @@ void add_port_cases(Registry& registry);
 void add_publish_count_cases(Registry& registry);
 void add_ring_cases(Registry& registry);
 void add_rtm_cases(Registry& registry);
+void add_scale_cases(Registry& registry);
 void add_stream_cases(Registry& registry);
 void add_wheelchair_cases(Registry& registry);
 

@@ -36,6 +36,7 @@ Registry all_cases() {
     add_publish_count_cases(registry);
     add_rtm_cases(registry);
     add_wheelchair_cases(registry);
+    add_scale_cases(registry);
 #ifdef TANDEM_BENCH_PATH
     add_path_cases(registry);
 #else

@@ -17,14 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<double> doubles_in(const fs::path& file) {
-    std::vector<double> values(fs::file_size(file) / sizeof(double));
-    std::ifstream(file, std::ios::binary)
-        .read(reinterpret_cast<char*>(values.data()),
-              static_cast<std::streamsize>(values.size() * sizeof(double)));
-    return values;
-}
-
 /// Shows both as well: the ratio alone does not say whether the machine or the bridge is slow.
 void add_ratio_of_tails(Session& session, const std::vector<double>& values) {
     std::vector<double> bridge, ring;
@@ -60,6 +52,14 @@ void make_floor(const Session& session) {
 }
 
 } // namespace
+
+std::vector<double> doubles_in(const fs::path& file) {
+    std::vector<double> values(fs::file_size(file) / sizeof(double));
+    std::ifstream(file, std::ios::binary)
+        .read(reinterpret_cast<char*>(values.data()),
+              static_cast<std::streamsize>(values.size() * sizeof(double)));
+    return values;
+}
 
 fs::path samples_file(const fs::path& folder) { return folder / "samples"; }
 

@@ -2,6 +2,7 @@
 #include "proxy/link/channel/channel.hpp"
 
 #include "host/log/log.hpp"
+#include "host/rt/crossings.hpp"
 #include "shm/segment/segment_file.hpp"
 
 #include <fmt/format.h>
@@ -48,6 +49,7 @@ bool ChannelWriter::publish_chunk(std::span<const std::byte> message, std::uint6
 bool ChannelWriter::publish_attending(std::size_t bytes, std::uint64_t stamp) {
     if (rt::rehearsing()) {
         bound_->ring.rehearse_publish(bytes);
+        rt::note_crossings(bound_->ring.sent());
         return true;
     }
     const auto message = bound_->ring.scratch().first(bytes);
@@ -273,6 +275,12 @@ ChannelReader::KeptMessage::KeptMessage(const shm::Record& of_ring)
     std::copy(of_ring.bytes.begin(), of_ring.bytes.end(), to.begin());
     record.bytes = to;
     record.front = memory.data();
+}
+
+const shm::Record* ChannelReader::rehearse_read_locked() {
+    if (!bound_) return nullptr;
+    if (const auto* last = bound_->ring.again()) rt::note_crossings(last->sequence);
+    return bound_->ring.rehearse_read();
 }
 
 const shm::Record* ChannelReader::read_kept_locked() {

@@ -239,7 +239,7 @@ class ChannelReader {
     rt::ShortMutex& mutex() { return mutex_; }
     const shm::Record* read_locked() {
         if (rt::rehearsing()) [[unlikely]]
-            return bound_ ? bound_->ring.rehearse_read() : nullptr;
+            return rehearse_read_locked();
         if (bound_) [[likely]]
             if (const auto* record = bound_->ring.read()) [[likely]]
                 return record;
@@ -328,6 +328,7 @@ class ChannelReader {
     };
     /// Call it when the ring is empty. Returns the kept message once, then nullptr. Requires mutex_.
     const shm::Record* read_kept_locked();
+    const shm::Record* rehearse_read_locked();
 
     mutable rt::ShortMutex mutex_;
     std::optional<BoundRing<shm::RingReader>> bound_;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "host/rt/crossings.hpp"
 #include "host/rt/periodic_tick.hpp"
 
 #include <catch2/catch.hpp>
@@ -90,24 +91,55 @@ TEST_CASE("a rehearsal that takes long is not repeated before the same tick") {
     CHECK(rehearsals > 0);
 }
 
+namespace {
+
+/// A tick that no user has given a spin. Each of its rehearsals reports one more message if `messages_cross`.
+struct DefaultTick {
+    explicit DefaultTick(std::chrono::nanoseconds period)
+        : tick({.period = period, .spin = std::nullopt, .rehearse = [this] {
+                    ++rehearsals;
+                    if (messages_cross) ++messages;
+                    tandem::rt::note_crossings(messages);
+                }}) {}
+    /// Returns whether it polls for one of so many ticks: it then rehearses more than to look for messages.
+    bool polls_within(int ticks) {
+        for (int i = 0; i < ticks; ++i) {
+            const int before = rehearsals;
+            tick.wait();
+            if (rehearsals > before + 1) return true;
+        }
+        return false;
+    }
+    bool messages_cross = true;
+    std::uint64_t messages = 0;
+    int rehearsals = 0;
+    PeriodicTick tick;
+};
+
+} // namespace
+
 TEST_CASE("ticks that no user has given a spin poll for at most a tenth of a processor together") {
-    const auto rehearses = [](PeriodicTick& tick, const int& rehearsals) {
-        for (int i = 0; i < 1000 && rehearsals == 0; ++i) tick.wait();
-        return rehearsals > 0;
-    };
-    int first_rehearsals = 0, other_rehearsals = 0, late_rehearsals = 0;
-    TickOptions options{.period = 2ms, .spin = std::nullopt}; // 100 us: a twentieth
-    options.rehearse = [&] { ++first_rehearsals; };
-    auto first = std::make_unique<PeriodicTick>(options);
-    options.rehearse = [&] { ++other_rehearsals; };
-    PeriodicTick second(options), third(options);
-    CHECK(rehearses(*first, first_rehearsals));
-    for (int i = 0; i < 5; ++i) third.wait();
-    CHECK(other_rehearsals == 0);
+    auto first = std::make_unique<DefaultTick>(2ms); // polls for 100 us: a twentieth
+    DefaultTick second(2ms), third(2ms);
+    CHECK(first->polls_within(1000));
+    second.tick.wait(); // takes the other twentieth, or the first already polls for more than its own
+    CHECK_FALSE(third.polls_within(5));
     first.reset(); // its share is free again
-    options.rehearse = [&] { ++late_rehearsals; };
-    PeriodicTick fourth(options);
-    CHECK(rehearses(fourth, late_rehearsals));
+    DefaultTick fourth(2ms);
+    CHECK(fourth.polls_within(1000));
+}
+
+TEST_CASE("a tick that no user has given a spin does not poll while no message crosses") {
+    DefaultTick tick(5ms);
+    tick.messages_cross = false;
+    CHECK_FALSE(tick.polls_within(100));
+    CHECK(tick.rehearsals > 0);
+    CHECK(tick.rehearsals < 20); // looks for messages
+    tick.messages_cross = true;
+    CHECK(tick.polls_within(1000));
+    tick.messages_cross = false;
+    for (int i = 0; i < 400; ++i) tick.tick.wait(); // 2 s
+    CHECK_FALSE(tick.polls_within(100));
 }
 
 TEST_CASE("an interrupted tick ends a long wait without counting a tick") {
@@ -117,6 +149,19 @@ TEST_CASE("an interrupted tick ends a long wait without counting a tick") {
     waiter.join();
     CHECK(tick.interrupted());
     CHECK(tick.stats().ticks == 0);
+}
+
+TEST_CASE("ticks that are interrupted one after the other do not wait for their times") {
+    PeriodicTick clock({.period = 90ms});
+    clock.wait();
+    for (int i = 0; i < 100; ++i) {
+        PeriodicTick tick({.period = 1h});
+        std::thread waiter([&] { tick.wait(); });
+        std::this_thread::sleep_for(1ms); // most threads are asleep by then
+        tick.interrupt();
+        waiter.join();
+    }
+    CHECK(clock.wait() < 50);
 }
 
 TEST_CASE("a period of zero is refused") {

@@ -23,6 +23,7 @@ class PeriodicTrigger : public CycleTrigger {
         return !tick_.interrupted();
     }
     void interrupt() override { tick_.interrupt(); }
+    rt::PeriodicTick* tick() override { return &tick_; }
     crash::CallbackText* callback_text() const override { return &tick_.callback_text(); }
     std::string stats() const override {
         const rt::TickStats stats = tick_.stats();

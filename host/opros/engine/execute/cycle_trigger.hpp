@@ -19,11 +19,12 @@ class CycleTrigger {
     virtual ~CycleTrigger() = default;
     /// [executor] Waits until the next cycle is due and returns true. Returns false after interrupt().
     virtual bool wait() = 0;
-    /// [any-thread] Makes the current wait and all later waits return false: within 100 ms for a periodic trigger, at
-    /// once for the others.
+    /// [any-thread] Makes the current wait and all later waits return false at once.
     virtual void interrupt() = 0;
     /// [any-thread] Returns the trigger's kind and counters in words.
     virtual std::string stats() const = 0;
+    /// Returns the ticks of a periodic trigger; NULL: another one.
+    virtual rt::PeriodicTick* tick() { return nullptr; }
     /// Returns where the executor publishes the callback that it is in; NULL: nowhere.
     virtual crash::CallbackText* callback_text() const { return nullptr; }
 };

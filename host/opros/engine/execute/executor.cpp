@@ -19,18 +19,43 @@ Executor::Executor(std::vector<ComponentHost*> components, const ExecutorOptions
 
 Executor::~Executor() {
     trigger_->interrupt();
+    if (shared_tick_) shared_tick_->leave(std::chrono::hours(24 * 365));
     if (thread_.joinable()) thread_.join();
 }
 
 void Executor::start() {
-    if (thread_.joinable()) return;
+    if (thread_.joinable() || shared_tick_ || start_in_shared_thread()) return;
     const auto task = std::make_shared<std::packaged_task<void()>>([this] { run(); });
     end_ = task->get_future();
     thread_ = process::start_thread([task] { (*task)(); });
 }
 
+/// Returns false if the executor needs a separate thread. A thread that polls, as its user has asked, cannot be shared.
+bool Executor::start_in_shared_thread() {
+    rt::PeriodicTick* const tick = trigger_->tick();
+    if (!tick || (options_.tick_spin && options_.tick_spin->count() > 0)) return false;
+    const ComponentProfile& profile = components_.front()->profile();
+    if (profile.has_exclusive_thread) return false;
+    separate_thread_ = rt::take_separate_tick_thread();
+    if (separate_thread_) return false;
+    const auto cycle = [this, tick](std::int64_t planned) {
+        const crash::CallbackPublication publication(trigger_->callback_text());
+        tick->tick_at(planned);
+        run_cycle();
+        return rt::SharedTick::Next::tick;
+    };
+    rt::ThreadOptions thread = thread_options();
+    thread.name = "shared-ticks";
+    const auto write_log = [](const std::string& line) { log::info("{}", line); };
+    shared_tick_ =
+        rt::SharedTick::start({profile.period, profile.phase, thread},
+                              {components_.front()->name(), cycle, write_log}, rt::SharedTick::Next::tick);
+    return true;
+}
+
 bool Executor::stop_within(std::chrono::nanoseconds timeout) {
     trigger_->interrupt();
+    if (shared_tick_) return shared_tick_->leave(timeout);
     return !end_.valid() || end_.wait_for(timeout) == std::future_status::ready;
 }
 
@@ -45,7 +70,7 @@ std::string Executor::stats() const {
     return "executor of " + names + ": " + trigger_->stats();
 }
 
-void Executor::run() {
+rt::ThreadOptions Executor::thread_options() const {
     const ComponentProfile& profile = components_.front()->profile();
     rt::ThreadOptions options{components_.front()->name(), 0, options_.cpu, false};
     // Never for a loop without pauses: at a real-time priority it would keep all other threads off its processor.
@@ -54,10 +79,14 @@ void Executor::run() {
         options.fifo_priority = profile.priority;
         options.round_robin = profile.scheduling_policy == SchedulingPolicy::round_robin;
     }
-    for (const std::string& notice : rt::configure_this_thread(options)) log::info("{}", notice);
+    return options;
+}
+
+void Executor::run() {
+    for (const std::string& notice : rt::configure_this_thread(thread_options())) log::info("{}", notice);
     const crash::CallbackPublication publication(trigger_->callback_text());
     // A loop without pauses may wait for its device inside a cycle, so its cycles have no bound.
-    const bool event_driven = profile.execution_type == ExecutionType::aperiodic;
+    const bool event_driven = components_.front()->profile().execution_type == ExecutionType::aperiodic;
     while (trigger_->wait()) {
         if (event_driven) components_.front()->publish_cycle(rt::monotonic_ns());
         run_cycle();

@@ -3,6 +3,7 @@
 
 #include "host/opros/engine/execute/component_host.hpp"
 #include "host/opros/engine/execute/cycle_trigger.hpp"
+#include "host/rt/shared_tick.hpp"
 
 #include <future>
 #include <memory>
@@ -20,8 +21,8 @@ struct ExecutorOptions {
     std::optional<std::chrono::nanoseconds> tick_spin;
 };
 
-/// A thread that runs the cycles of one component, or of several components with the same period, when their trigger
-/// says so. [main-thread] for all functions. The components must outlive it.
+/// Runs the cycles of one component, or of several components with the same period, when their trigger says so: in a
+/// separate thread, or in one that it shares with other executors (rt::SharedTick). [main-thread] for all functions. The components must outlive it.
 class Executor {
   public:
     /// `components` must not be empty. The profile of the first one determines the trigger and the scheduling.
@@ -29,10 +30,10 @@ class Executor {
     /// Waits for the current cycle without a time limit. So call stop_within() first, and leak an executor that has not
     /// stopped.
     ~Executor();
-    /// Creates the thread, unless it exists. If the system refuses real-time scheduling, logs that and runs the thread
+    /// Begins the cycles, unless they have begun. If the system refuses real-time scheduling, logs that and runs the thread
     /// without it.
     void start();
-    /// Asks the thread to end and waits for it. Returns false if it is still in a component's code after `timeout`.
+    /// Ends the cycles and waits for the current one. Returns false if it is still in a component's code after `timeout`.
     bool stop_within(std::chrono::nanoseconds timeout);
     bool runs(const ComponentHost& component) const;
     const std::vector<ComponentHost*>& components() const { return components_; }
@@ -42,6 +43,8 @@ class Executor {
   private:
     void run();
     void run_cycle();
+    rt::ThreadOptions thread_options() const;
+    bool start_in_shared_thread();
     void rehearse();
 
     std::vector<ComponentHost*> components_;
@@ -49,6 +52,8 @@ class Executor {
     std::unique_ptr<CycleTrigger> trigger_;
     std::future<void> end_; // ready when run() has returned: a std::thread cannot be joined with a timeout
     std::thread thread_;
+    std::shared_ptr<void> separate_thread_; // token of rt::take_separate_tick_thread()
+    std::shared_ptr<rt::SharedTick> shared_tick_;
 };
 
 /// Creates the executors that the components' profiles ask for: none for passive and failed components, one for all

@@ -137,6 +137,8 @@ void read_period_and_phase(const XmlFile& xml, const pugi::xml_node& semantics, 
 void read_execution_semantics(const XmlFile& xml, const pugi::xml_node& semantics,
                               ComponentProfile& profile) {
     profile.execution_type = read_execution_type(xml, semantics);
+    profile.has_exclusive_thread =
+        XmlFile::keyword(XmlFile::child_text(semantics, "type")) == "periodic-exclusive";
     profile.scheduling_policy = read_scheduling_policy(xml, semantics);
     profile.priority = static_cast<int>(std::clamp(xml.number(semantics, "priority", 0), 0., 99.));
     // Other profiles also contain a <period>, which is unused and may be 0.

@@ -68,6 +68,7 @@ struct ComponentProfile {
     SourceLocation location, library_location; ///< of the root element and of <library_name>
     std::string name, library_name;
     ExecutionType execution_type = ExecutionType::passive;
+    bool has_exclusive_thread = false;            ///< of the type periodic-exclusive
     std::chrono::nanoseconds period{0}, phase{0}; ///< of the periodic types
     int priority = 0;                             ///< 0..99, used with `fifo` and `round_robin` only
     SchedulingPolicy scheduling_policy = SchedulingPolicy::other;

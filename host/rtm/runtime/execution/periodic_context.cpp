@@ -1,18 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// PeriodicExecutionContext: a thread per context, which sleeps while no component is active.
+// PeriodicExecutionContext: cycles in a separate thread or in one that contexts of equal rate share. Neither wakes up while no
+// component is active.
 #include "host/crash/callback_scope.hpp"
 #include "host/process/start_thread.hpp"
 #include "host/rt/periodic_tick.hpp"
+#include "host/rt/shared_tick.hpp"
 #include "host/rt/thread.hpp"
 #include "host/rtm/runtime/manager/manager_options.hpp"
 #include <algorithm>
 #include <atomic>
 #include <rtm/Manager.h>
 #include <rtm/PeriodicExecutionContext.h>
+#include <typeinfo>
+#include <utility>
 
 namespace RTC_exp {
 
 using tandem::rt::PeriodicTick;
+using tandem::rt::SharedTick;
 
 /// Shared by the thread and its context, because a thread that hangs in a component's callback may outlive the context.
 struct PeriodicExecutionContext::Worker {
@@ -26,9 +31,15 @@ struct PeriodicExecutionContext::Worker {
     bool has_rested =
         false; // the thread's: no component was active, so that a cycle need not wait for a tick
     bool callback_hangs = false; // a stop has waited for it without success
-    std::thread thread;
+    std::thread thread;          // or:
+    std::shared_ptr<SharedTick> shared_tick;
+    std::shared_ptr<void> separate_thread; // token of tandem::rt::take_separate_tick_thread()
 
     TickStatistics tickStatistics() const; // with the mutex held
+    template <class WaitForTick>
+    SharedTick::Next step(PeriodicExecutionContext& context, const WaitForTick& wait_for_tick);
+    bool leaveSharedTick(std::unique_lock<std::mutex>& lock);
+    void logOverruns(PeriodicExecutionContext& context) const;
 };
 
 PeriodicExecutionContext::PeriodicExecutionContext() : ExecutionContextServant("periodic_ec") {}
@@ -74,15 +85,87 @@ void PeriodicExecutionContext::addStatistics(coil::Properties& properties) {
     properties.setProperty("tick.latest_us", std::to_string(counted.max_lateness.count() / 1000));
 }
 
+namespace {
+
+// Contexts that ask for a priority or processors have separate threads, and so have all where the user asks for polling.
+bool mayShareThread(const coil::Properties& properties) {
+    const auto spin = RTC::host_options().tick_spin;
+    int priority = 0;
+    coil::stringTo(priority, properties.getProperty("priority").c_str());
+    return priority == 0 && properties.getProperty("cpu_affinity").empty() && (!spin || spin->count() == 0);
+}
+
+tandem::rt::SharedTickOptions sharedTickOptions(std::chrono::nanoseconds period,
+                                                std::chrono::nanoseconds phase) {
+    return {period, phase, {"rtm-ec", 0, RTC::host_options().cpu}};
+}
+
+} // namespace
+
 RTC::ReturnCode_t PeriodicExecutionContext::onStarted() {
     auto started = std::make_shared<Worker>();
     createTick(*started);
     started->has_rested = !hasWork();
-    // Under the mutex: a stop() in the thread's first cycle must find m_worker set.
+    // A derived class may rely on its thread.
+    if (typeid(*this) != typeid(PeriodicExecutionContext) || !mayShareThread(m_properties) ||
+        (started->separate_thread = tandem::rt::take_separate_tick_thread())) {
+        // Under the mutex: a stop() in the thread's first cycle must find m_worker set.
+        std::lock_guard<std::mutex> lock(m_workerMutex);
+        started->thread = tandem::process::start_thread([this, started] { run(*started); });
+        m_worker = started;
+        return RTC::RTC_OK;
+    }
+    const auto cycle = [this, started](std::int64_t planned) {
+        // Else each call registers the thread, which takes as long.
+        thread_local const omni_thread::ensure_self known_to_orb;
+        return started->step(*this, [planned](PeriodicTick& tick) { tick.tick_at(planned); });
+    };
+    const auto write_log = [this](const std::string& line) { RTC_INFO(("%s", line.c_str())); };
     std::lock_guard<std::mutex> lock(m_workerMutex);
-    started->thread = tandem::process::start_thread([this, started] { run(*started); });
+    started->shared_tick = SharedTick::start(
+        sharedTickOptions(getPeriod(), m_phase), {m_properties.getProperty("tick.owner"), cycle, write_log},
+        started->has_rested ? SharedTick::Next::rest : SharedTick::Next::tick);
     m_worker = started;
     return RTC::RTC_OK;
+}
+
+/// Runs a cycle at the next tick, or at once after a rest. Returns `rest`, without a cycle, if no component needs one.
+/// [context's thread]
+template <class WaitForTick>
+SharedTick::Next PeriodicExecutionContext::Worker::step(PeriodicExecutionContext& context,
+                                                        const WaitForTick& wait_for_tick) {
+    std::unique_lock<std::mutex> lock(mutex);
+    if (stop_requested) return SharedTick::Next::rest;
+    transition_requested = false;
+    // Sleeps without the mutex, on a copy of the pointer: setRate() may replace the tick meanwhile, and then interrupts it.
+    const auto current = tick;
+    lock.unlock();
+    if (context.hasWork()) {
+        const tandem::crash::CallbackPublication publication(&current->callback_text());
+        if (has_rested)
+            current->begin_cycle();
+        else
+            wait_for_tick(*current);
+        if (current->interrupted()) return SharedTick::Next::tick;
+        context.invokeWorker();
+        has_rested = false;
+        return SharedTick::Next::tick;
+    }
+    current->rest();
+    lock.lock();
+    context.createTick(*this); // periods that are slept through do not count as skipped
+    has_rested = true;
+    return SharedTick::Next::rest;
+}
+
+void PeriodicExecutionContext::Worker::logOverruns(PeriodicExecutionContext& context) const {
+    auto& rtclog = context.rtclog;
+    const TickStatistics counted = tickStatistics();
+    if (counted.overruns > 0)
+        RTC_WARN(("%llu of %llu cycles overran their period of %g ms; %llu periods had no cycle",
+                  static_cast<unsigned long long>(counted.overruns),
+                  static_cast<unsigned long long>(counted.cycles), 1e-6 * double(context.getPeriod().count()),
+                  static_cast<unsigned long long>(counted.skipped)));
 }
 
 // [context's thread]
@@ -98,40 +181,27 @@ void PeriodicExecutionContext::run(Worker& worker) {
         if (const auto notice = tandem::rt::pin_this_thread("thread rtm-ec", cpus))
             RTC_WARN(("%s", notice->c_str()));
 
-    std::unique_lock<std::mutex> lock(worker.mutex);
-    while (!worker.stop_requested) {
-        worker.transition_requested = false;
-        // Sleeps without the mutex, on a copy of the pointer: setRate() may replace the tick meanwhile, and then
-        // interrupts it.
-        const auto tick = worker.tick;
-        lock.unlock();
-        const bool has_work = hasWork();
-        if (!has_work) tick->rest();
-        if (has_work) {
-            const tandem::crash::CallbackPublication publication(&tick->callback_text());
-            if (worker.has_rested)
-                tick->begin_cycle();
-            else
-                tick->wait();
-            if (!tick->interrupted()) {
-                invokeWorker();
-                worker.has_rested = false;
-            }
-        }
-        lock.lock();
-        if (has_work) continue;
-        worker.wake.wait(lock, [&] { return worker.stop_requested || worker.transition_requested; });
-        createTick(worker); // periods that were slept through do not count as skipped
-        worker.has_rested = true;
+    for (;;) {
+        const auto next = worker.step(*this, [](PeriodicTick& tick) { tick.wait(); });
+        std::unique_lock<std::mutex> lock(worker.mutex);
+        if (next == SharedTick::Next::rest)
+            worker.wake.wait(lock, [&] { return worker.stop_requested || worker.transition_requested; });
+        if (!worker.stop_requested) continue;
+        worker.logOverruns(*this);
+        worker.finished = true;
+        worker.wake.notify_all();
+        return;
     }
-    const TickStatistics counted = worker.tickStatistics();
-    if (counted.overruns > 0)
-        RTC_WARN(("%llu of %llu cycles overran their period of %g ms; %llu periods had no cycle",
-                  static_cast<unsigned long long>(counted.overruns),
-                  static_cast<unsigned long long>(counted.cycles), 1e-6 * double(getPeriod().count()),
-                  static_cast<unsigned long long>(counted.skipped)));
-    worker.finished = true;
-    worker.wake.notify_all();
+}
+
+// Without the mutex, which the current cycle may need to end.
+bool PeriodicExecutionContext::Worker::leaveSharedTick(std::unique_lock<std::mutex>& lock) {
+    const auto timeout = callback_hangs ? std::chrono::nanoseconds(0) : RTC::host_options().stop_timeout;
+    const auto leaving = shared_tick;
+    lock.unlock();
+    const bool has_left = leaving->leave(timeout);
+    lock.lock();
+    return has_left;
 }
 
 RTC::ReturnCode_t PeriodicExecutionContext::onStopping() {
@@ -142,17 +212,22 @@ RTC::ReturnCode_t PeriodicExecutionContext::onStopping() {
         stopping->stop_requested = true;
         stopping->tick->interrupt();
         stopping->wake.notify_all();
+        if (stopping->shared_tick) stopping->finished = stopping->leaveSharedTick(lock);
         if (isInsideCycle()) return RTC::RTC_OK; // this is that thread: it ends after the cycle
         if (stopping->callback_hangs && !stopping->finished) return RTC::RTC_ERROR;
-        stopping->callback_hangs = !stopping->wake.wait_for(lock, RTC::host_options().stop_timeout,
-                                                            [&] { return stopping->finished; });
+        stopping->callback_hangs =
+            !stopping->finished &&
+            (stopping->shared_tick || !stopping->wake.wait_for(lock, RTC::host_options().stop_timeout,
+                                                               [&] { return stopping->finished; }));
         if (stopping->callback_hangs)
             return RTC::RTC_ERROR; // the thread is in a callback: its component cannot be deleted
     }
     // Another thread may have stopped it at the same time; only one of them joins.
     std::lock_guard<std::mutex> lock(m_workerMutex);
     if (m_worker == stopping) {
-        stopping->thread.join();
+        if (stopping->thread.joinable()) stopping->thread.join();
+        std::lock_guard<std::mutex> worker_lock(stopping->mutex);
+        if (std::exchange(stopping->shared_tick, nullptr)) stopping->logOverruns(*this);
         m_finishedStatistics = stopping->tickStatistics();
         m_worker.reset();
     }
@@ -167,6 +242,7 @@ RTC::ReturnCode_t PeriodicExecutionContext::onSetRate(double) {
     auto old_tick = running->tick;
     createTick(*running);
     old_tick->interrupt();
+    if (running->shared_tick) running->shared_tick->change(sharedTickOptions(getPeriod(), m_phase));
     return RTC::RTC_OK;
 }
 
@@ -176,6 +252,7 @@ void PeriodicExecutionContext::onTransitionRequested() {
     std::lock_guard<std::mutex> lock(running->mutex);
     running->transition_requested = true;
     running->wake.notify_all();
+    if (running->shared_tick) running->shared_tick->wake();
 }
 
 } // namespace RTC_exp

@@ -31,6 +31,31 @@ TEST_CASE("executors run cycles until the application is stopped, and none after
     CHECK(a.calls.back() == "stop");
 }
 
+TEST_CASE("executors of equal periods beyond the first 16 run, count and stop in few threads") {
+    const Folder folder;
+    folder.component("A", "maker", "<type>periodic</type><period>2</period>");
+    std::string subcomponents;
+    for (int i = 0; i < 40; ++i) subcomponents += Folder::sub("A" + std::to_string(i), "A.xml");
+    const auto threads = [] {
+        return std::distance(std::filesystem::directory_iterator("/proc/self/task"), {});
+    };
+    Application application(folder.application(subcomponents), test_options(folder, false));
+    const auto before = threads();
+    application.start();
+    const auto each = [&](int i) -> Recorder& { return recorder(application, "A" + std::to_string(i)); };
+    for (int i = 0; i < 40; ++i) CHECK(eventually([&] { return each(i).executions > 10; }));
+    CHECK(threads() - before < 40);
+    application.stop();
+    REQUIRE(application.executor_stats().size() == 40);
+    for (const std::string& line : application.executor_stats())
+        CHECK_THAT(line, Catch::Contains(": every 2 ms, ") && !Catch::Contains(" 0 ticks"));
+    for (int i = 0; i < 40; ++i) {
+        const int executions = each(i).executions;
+        CHECK(each(i).updates == executions);
+        CHECK(each(i).calls.back() == "stop");
+    }
+}
+
 TEST_CASE("executors count their ticks, overruns and skipped periods") {
     const Folder folder;
     Application application(maker_with(folder, "<type>periodic-shared</type><period>1</period>"),

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// The threads of shared ticks. Internal to this room.
+#pragma once
+
+#include "host/rt/shared_tick.hpp"
+
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace tandem::rt {
+
+/// A thread that runs the cycles of its members, until none is left. A member changes its thread with the mutex of
+/// TickThreads and then that of the thread held.
+struct TickThread : std::enable_shared_from_this<TickThread> {
+    using Lock = std::unique_lock<std::mutex>;
+
+    explicit TickThread(SharedTickOptions of_all) : options(std::move(of_all)) {}
+    /// Starts the thread. Throws process::NotStarted.
+    void start();
+    bool rests() const;
+    void add(const std::shared_ptr<SharedTick>& tick);
+    void remove(const SharedTick& tick);
+    /// Returns true at the second look that finds the same cycle running for longer than any may delay the others.
+    bool hangs(std::int64_t now);
+
+    const SharedTickOptions options;
+    std::mutex mutex;
+    std::condition_variable changed;
+    std::vector<std::shared_ptr<SharedTick>> members;
+    std::size_t next = 0;          // the member whose turn is next in the present round
+    SharedTick* running = nullptr; // the member whose cycle runs
+    std::int64_t running_since = 0, looked_at = 0;
+    bool has_woken = false; // a resting member is to run at once
+    std::thread thread;     // none if leave() joins it
+    std::thread::id id;
+
+  private:
+    void run();
+    void run_round(Lock& lock, bool all);
+    void run_cycle(Lock& lock, const std::shared_ptr<SharedTick>& tick);
+    bool takes_too_long(SharedTick& tick, std::int64_t took);
+    void plan_next();
+
+    std::int64_t planned = 0;
+    long waits = 0; // voluntary context switches of the thread at the last look
+};
+
+/// All threads of shared ticks in the process.
+class TickThreads {
+  public:
+    /// Never deleted: a thread that hangs in a cycle may outlive static objects.
+    static TickThreads& all();
+
+    // The next four require the mutex.
+
+    /// Adds the tick to a thread with these options. Throws process::NotStarted.
+    void add(const std::shared_ptr<SharedTick>& tick, const SharedTickOptions& options);
+    /// Ends the tick's membership in the thread, whose mutex the caller holds.
+    void remove(const SharedTick& tick, const std::shared_ptr<TickThread>& thread);
+    /// Looks for cycles that hang, as long as threads have several members that do not rest.
+    void ensure_watch();
+    /// Gives the tick a thread that no other tick joins, unless it has left or no thread can be started.
+    void separate(const std::shared_ptr<SharedTick>& tick, std::int64_t took);
+
+    std::mutex mutex;
+
+  private:
+    void watch();
+    bool has_work_to_watch() const;
+    void rescue_neighbours(std::shared_ptr<TickThread>& thread);
+    std::shared_ptr<TickThread> find_thread(const SharedTickOptions& options) const;
+
+    std::vector<std::shared_ptr<TickThread>> threads_; // those that ticks may join
+    bool is_watched_ = false;
+};
+
+} // namespace tandem::rt
