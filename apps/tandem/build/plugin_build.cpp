@@ -5,8 +5,9 @@
 #include "apps/tandem/build/folder/checkout.hpp"
 #include "apps/tandem/build/folder/cmake_lists.hpp"
 #include "apps/tandem/build/folder/source_text.hpp"
-#include "apps/tandem/build/header_packages.hpp"
 #include "apps/tandem/build/include_scan.hpp"
+#include "apps/tandem/build/packages/header_packages.hpp"
+#include "apps/tandem/build/packages/installed_library.hpp"
 #include "apps/tandem/build/plain_path.hpp"
 #include "apps/tandem/build/remedy.hpp"
 #include "apps/tandem/build/select_sources.hpp"
@@ -20,7 +21,9 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
+#include <map>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -28,6 +31,8 @@
 
 namespace tandem::command {
 namespace {
+
+namespace fs = std::filesystem;
 
 /// Returns the folder of this program's TandemConfig.cmake. The search starts at the program's own file, so
 /// that an installed tree can be moved. Throws std::runtime_error if it is missing.
@@ -46,11 +51,11 @@ struct Plugin {
     std::vector<std::string> definitions; ///< from the component's project files
     NeighbourHeaders neighbours;
     IncludeScan includes;
+    std::map<fs::path, InstalledLibrary>
+        installed; ///< by the include folder that the compiler does not search
     bool needs_cv_h =
         false; ///< uses OpenCV's C API through headers that contained it in OpenCV 2 and 3 but not in 4
 };
-
-namespace fs = std::filesystem;
 
 // Returns a keyword of the CMake function with its values; "" without values.
 std::string cmake_argument(const char* keyword, const std::vector<std::string>& values) {
@@ -73,14 +78,28 @@ const char* languages(const std::vector<fs::path>& sources) {
     return std::any_of(sources.begin(), sources.end(), is_c) ? "C CXX" : "CXX";
 }
 
+// Returns the pkg-config modules that the component's includes ask for.
+std::set<std::string> used_modules(const Plugin& plugin) {
+    auto modules = plugin.includes.pkg_config;
+    for (const auto& [dir, library] : plugin.installed)
+        if (!library.pkg_config.empty()) modules.insert(library.pkg_config);
+    return modules;
+}
+
 /// Returns the CMakeLists.txt that builds the plugin in the folder `build`. `forwards`: folder of the
 /// forwarding headers.
 /// Paths are absolute, because the CMakeLists.txt is in the build folder.
 std::string cmake_project(const Plugin& plugin, const PluginBuildOptions& options, const fs::path& build,
                           const fs::path& forwards) {
     const std::vector<fs::path> include_dirs(options.include_dirs.begin(), options.include_dirs.end());
-    const std::vector<std::string> found_modules(plugin.includes.pkg_config.begin(),
-                                                 plugin.includes.pkg_config.end());
+    const auto modules = used_modules(plugin);
+    std::string installed_dirs;
+    auto libraries = options.libraries;
+    for (const auto& [dir, library] : plugin.installed) {
+        // After all other folders, because a header in `dir` must not hide another one.
+        installed_dirs += fmt::format("add_compile_options(\"SHELL:-idirafter {}\")\n", dir.string());
+        for (const auto& file : library.libraries) libraries.push_back(file.string());
+    }
     // Definitions from the command line come last, because the compiler uses the last definition of a name.
     std::vector<std::string> definitions = plugin.definitions;
     definitions.insert(definitions.end(), options.definitions.begin(), options.definitions.end());
@@ -91,20 +110,18 @@ std::string cmake_project(const Plugin& plugin, const PluginBuildOptions& option
            (plugin.needs_cv_h ? "add_compile_options(\"$<$<COMPILE_LANGUAGE:CXX>:SHELL:-include cv.h "
                                 "-include highgui.h>\")\n"
                               : "") +
-           "set(CMAKE_LIBRARY_OUTPUT_DIRECTORY " + text::quote_cmake((build / "made").string()) +
-           ")\ntandem_add_" + plugin.model + "_component(" + plugin.name + "\n  FOLDER " +
-           text::quote_cmake(fs::absolute(options.folder).string()) +
+           installed_dirs + "set(CMAKE_LIBRARY_OUTPUT_DIRECTORY " +
+           text::quote_cmake((build / "made").string()) + ")\ntandem_add_" + plugin.model + "_component(" +
+           plugin.name + "\n  FOLDER " + text::quote_cmake(fs::absolute(options.folder).string()) +
            cmake_argument(rtm ? "CANDIDATES" : "SOURCES", absolute_names(plugin.sources.sources)) +
            (rtm ? cmake_argument("MORE_IDL", absolute_names(plugin.includes.idl_files)) : "") +
            cmake_argument("INCLUDE_DIRS", absolute_names(include_dirs)) +
-           cmake_argument("DEFINITIONS", definitions) + cmake_argument("LIBRARIES", options.libraries) +
+           cmake_argument("DEFINITIONS", definitions) + cmake_argument("LIBRARIES", libraries) +
            cmake_argument("PKG_CONFIG", options.pkg_config) +
-           cmake_argument("PKG_CONFIG_IF_FOUND", found_modules) +
+           cmake_argument("PKG_CONFIG_IF_FOUND", {modules.begin(), modules.end()}) +
            cmake_argument("FORWARDS", {forwards.string()}) +
            fmt::format("\n  CXX_STANDARD {})\n", options.standard);
 }
-
-namespace fs = std::filesystem;
 
 /// The folder in which CMake works. Unless the user named a folder, it is temporary and removed with this
 /// object.
@@ -139,8 +156,11 @@ class BuildFolder {
 };
 
 // Returns the advice that follows the first error of a failed step.
-std::string advice(const std::string& error, const Plugin& plugin, const fs::path& folder) {
-    std::string text = find_remedy(error, folder);
+std::string advice(const std::string& error, const Plugin& plugin, const PluginBuildOptions& options) {
+    const auto& folder = options.folder;
+    BuildFacts facts{folder, options.pkg_config, options.libraries};
+    for (const auto& module : used_modules(plugin)) facts.pkg_config.push_back(module);
+    std::string text = find_remedy(error, facts);
     // One of these files may define a function that no known library defines.
     if (text.find("--source FILE") != std::string::npos && !plugin.sources.left_out.empty()) {
         text = "these files were left out because " + plugin.sources.project_files + " does not list them:";
@@ -187,12 +207,12 @@ std::optional<std::string> run_cmake(const std::vector<std::string>& command, do
 
 // Prints the output of a failed step. The exception repeats the first error with advice, so that it is the
 // last line on the terminal.
-[[noreturn]] void fail(const std::string& output, const Plugin& plugin, const fs::path& folder,
+[[noreturn]] void fail(const std::string& output, const Plugin& plugin, const PluginBuildOptions& options,
                        const std::string& what) {
     print_text(output);
     const std::string error = first_error(output);
     throw std::runtime_error("component " + plugin.name + " " + what + ": " + error +
-                             advice(error, plugin, folder) + " (the compiler's output is above)");
+                             advice(error, plugin, options) + " (the compiler's output is above)");
 }
 
 // Adds each missing header that exists in exactly one place of the checkout, and prints a note. Returns
@@ -205,6 +225,19 @@ bool add_neighbours(const std::string& output, const fs::path& folder, Neighbour
             continue;
         print_note("tandem: {} is not in {}; using the file found elsewhere in this repository: {}\n", header,
                    folder.string(), found[0].lexically_proximate(fs::current_path()).string());
+        added = true;
+    }
+    return added;
+}
+
+// Adds the folders of installed libraries with missing headers, and prints notes. Returns whether it added one.
+bool add_installed(const std::string& output, std::map<fs::path, InstalledLibrary>& installed) {
+    bool added = false;
+    for (const auto& header : missing_headers(output)) {
+        const auto library = find_installed_library(header);
+        if (!library || !installed.emplace(library->include_dir, *library).second) continue;
+        print_note("tandem: using {} of {}{}\n", header, library->include_dir.string(),
+                   library->package.empty() ? "" : ", package " + library->package);
         added = true;
     }
     return added;
@@ -240,14 +273,15 @@ void compile(Plugin& plugin, const PluginBuildOptions& options, const fs::path& 
             run_cmake({"cmake", "-S", build.string(), "-B", bin, "-DCMAKE_BUILD_TYPE=" + options.build_type,
                        "-DCMAKE_HAVE_LIBC_PTHREAD=ON", "-DTandem_DIR=" + cmake_package_folder().string()},
                       options.timeout_s, plugin.name);
-        if (output) fail(*output, plugin, options.folder, "cannot be configured");
+        if (output) fail(*output, plugin, options, "cannot be configured");
         // Without a number, make would start one compiler per source.
         const auto processors = std::to_string(std::max(1U, std::thread::hardware_concurrency()));
         output =
             run_cmake({"cmake", "--build", bin, "--parallel", processors}, options.timeout_s, plugin.name);
         if (!output) return;
-        if (!add_neighbours(*output, options.folder, plugin.neighbours) && !add_cv_h(*output, plugin))
-            fail(*output, plugin, options.folder, "does not compile");
+        if (!add_neighbours(*output, options.folder, plugin.neighbours) &&
+            !add_installed(*output, plugin.installed) && !add_cv_h(*output, plugin))
+            fail(*output, plugin, options, "does not compile");
     }
 }
 
@@ -328,6 +362,7 @@ fs::path build_plugin(const std::string& model, const std::string& name, const E
                   name,
                   select_sources(options.folder, entry_point, options.sources),
                   read_definitions(options.folder),
+                  {},
                   {},
                   {}};
     for (const auto& source : plugin.sources.sources) require_cmake_path(source);
