@@ -117,6 +117,11 @@ std::string for_header(const std::string& header, const BuildFacts& facts) {
         if (auto options = options_for(idl, folder); !options.empty()) return options;
     if (is_windows_header(header))
         return header + " is a Windows header: this source cannot be built on Linux";
+    if (const std::string end = "SVC_impl.h"; header.ends_with(end))
+        return fmt::format(
+            "RTCBuilder makes it from {}.idl for a service that a component provides: make it there, or "
+            "add its folder with -I DIR",
+            header.substr(0, header.size() - end.size()));
     if (const auto package = find_package_of_header(header)) return for_package(header, *package, facts);
     if (const auto* origin = origin_outside_debian(header))
         return header + " belongs to " + origin +

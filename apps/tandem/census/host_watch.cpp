@@ -12,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <unistd.h>
+#include <utility>
 
 namespace tandem::command {
 namespace {
@@ -77,20 +78,21 @@ class FirstError {
     void add(const std::string& line) {
         bytes_ += line.size() + 1;
         if (line.find_first_not_of(" \t") == std::string::npos) return;
-        if (best_ == std::size(marks)) text_ = line;
+        const auto before = std::exchange(last_, line);
+        if (best_ == std::size(marks)) text_ = message_of(line);
         for (std::size_t mark = 0; mark < best_; ++mark)
             if (line.find(marks[mark]) != std::string::npos) {
                 best_ = mark;
-                text_ = line;
+                text_ = message_of(line) + (before.empty() ? "" : " (line before: " + before + ")");
             }
     }
-    std::string text() const { return message_of(text_); }
+    const std::string& text() const { return text_; }
     bool is_marked() const { return best_ < std::size(marks); }
     std::size_t bytes() const { return bytes_; }
 
   private:
     std::size_t bytes_ = 0, best_ = std::size(marks); ///< the mark in the line
-    std::string text_;
+    std::string text_, last_;
 };
 
 /// One host from start to end.

@@ -88,6 +88,7 @@ const char* origin_outside_debian(const std::string& header) {
         {"cnoid/", "Choreonoid"},
         {"HD/", "OpenHaptics of 3D Systems"},
         {"flycapture/", "FlyCapture of Point Grey"},
+        {"FlyCapture", "FlyCapture of Point Grey"},
         {"pgrflycapture", "FlyCapture of Point Grey"},
         {"librealsense", "librealsense of Intel"},
         {"mraa", "mraa of Intel"},

@@ -74,6 +74,7 @@ TEST_CASE("a remedy that the build already uses is not advised again") {
     CHECK(remedy(missing("ode/ode.h")) == "apt install libode-dev");
     CHECK(remedy(missing("frames.hpp")) == "if kdl/frames.hpp is meant: apt install liborocos-kdl-dev");
     CHECK(remedy(undefined("dWorldCreate")) == "apt install libode-dev, and add --pkg-config ode");
+    CHECK_THAT(remedy(missing("MySVC_impl.h")), Catch::StartsWith("RTCBuilder makes it from My.idl"));
     CHECK(remedy("CMake Error: pkg-config knows no module ode; install") == "apt install libode-dev");
     root.write("var/lib/dpkg/info/libode-dev:amd64.list", "/.\n/usr/include/ode/ode.h\n");
     root.write("var/lib/dpkg/info/libboost-thread-dev.list", "/.\n");
