@@ -204,11 +204,12 @@ void Supervisor::read_output(Host& host, Events& found) {
     const std::size_t before = host.unread.size();
     host.output.read_available(host.unread);
     if (host.unread.size() != before) host.unread_since = monotonic_seconds();
-    for (std::size_t end; (end = host.unread.find('\n')) != host.unread.npos;) {
-        host.last_line = host.unread.substr(0, end);
-        host.unread.erase(0, end + 1);
+    std::size_t begin = 0; // erasing each line separately would take long if a component prints without pause
+    for (std::size_t end; (end = host.unread.find('\n', begin)) != host.unread.npos; begin = end + 1) {
+        host.last_line = host.unread.substr(begin, end - begin);
         add_line(host, found);
     }
+    host.unread.erase(0, begin);
     const bool is_prompt = host.log.empty() && !host.unread.empty() && host.unread.size() == before &&
                            monotonic_seconds() > host.unread_since + prompt_s;
     if (host.unread.size() <= max_line && !is_prompt) return;

@@ -3,7 +3,7 @@
 #include "apps/tandem/build/folder/checkout.hpp"
 #include "apps/tandem/build/folder/project_files.hpp"
 #include "apps/tandem/build/folder/source_text.hpp"
-#include "apps/tandem/build/header_packages.hpp"
+#include "apps/tandem/build/packages/header_packages.hpp"
 #include "apps/tandem/output/print.hpp"
 
 #include <algorithm>
@@ -72,11 +72,9 @@ class Scanner {
 
     void resolve(const std::string& name, const fs::path& place) {
         if (is_old_opencv_header(name)) result.old_opencv = true;
-        if (const auto* package = find_package_of_header(name); package && *package->pkg_config)
-            result.pkg_config.insert(package->pkg_config);
-        if (is_file(place / name)) return read((place / name).lexically_normal());
-        for (const auto& dir : dirs_)
-            if (is_file(dir / name)) return read((dir / name).lexically_normal());
+        const auto in_search_path = find_in_dirs(name, place);
+        if (in_search_path.empty() || in_search_path.string().starts_with("/usr/")) add_module(name);
+        if (!in_search_path.empty()) return read(in_search_path);
         if (result.forwards.count(name) != 0) return;
         auto file = find_below(name);
         if (const auto neighbour = neighbours_.find(name); file.empty() && neighbour != neighbours_.end())
@@ -87,6 +85,19 @@ class Scanner {
         if (file.empty()) return find_otherwise(name, place);
         result.forwards[name] = file.string();
         read(file);
+    }
+
+    fs::path find_in_dirs(const std::string& name, const fs::path& place) const {
+        if (is_file(place / name)) return (place / name).lexically_normal();
+        for (const auto& dir : dirs_)
+            if (is_file(dir / name)) return (dir / name).lexically_normal();
+        return {};
+    }
+
+    void add_module(const std::string& name) {
+        const auto package = find_package_of_header(name);
+        if (package && package->certain && !package->pkg_config.empty())
+            result.pkg_config.insert(std::string(package->pkg_config));
     }
 
     // Headers of OpenRTM are in folders with a version, openrtm-1.1/rtm/RTC.h; those of Windows users have backslashes.

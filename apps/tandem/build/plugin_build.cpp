@@ -6,8 +6,9 @@
 #include "apps/tandem/build/folder/checkout.hpp"
 #include "apps/tandem/build/folder/cmake_lists.hpp"
 #include "apps/tandem/build/folder/source_text.hpp"
-#include "apps/tandem/build/header_packages.hpp"
 #include "apps/tandem/build/include_scan.hpp"
+#include "apps/tandem/build/packages/header_packages.hpp"
+#include "apps/tandem/build/packages/installed_library.hpp"
 #include "apps/tandem/build/plain_path.hpp"
 #include "apps/tandem/build/project/cmake_package.hpp"
 #include "apps/tandem/build/project/cmake_projects.hpp"
@@ -22,7 +23,9 @@
 #include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
+#include <map>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -39,11 +42,11 @@ struct Plugin {
     std::string problem;                  ///< of the component's CMake project; "": none
     NeighbourHeaders neighbours;
     IncludeScan includes;
+    std::map<fs::path, InstalledLibrary>
+        installed; ///< by the include folder that the compiler does not search
     bool needs_cv_h =
         false; ///< uses OpenCV's C API through headers that contained it in OpenCV 2 and 3 but not in 4
 };
-
-namespace fs = std::filesystem;
 
 // Returns a keyword of the CMake function with its values; "" without values.
 std::string cmake_argument(const char* keyword, const std::vector<std::string>& values) {
@@ -66,6 +69,14 @@ const char* languages(const std::vector<fs::path>& sources) {
     return std::any_of(sources.begin(), sources.end(), is_c) ? "C CXX" : "CXX";
 }
 
+// Returns the pkg-config modules that the component's includes ask for.
+std::set<std::string> used_modules(const Plugin& plugin) {
+    auto modules = plugin.includes.pkg_config;
+    for (const auto& [dir, library] : plugin.installed)
+        if (!library.pkg_config.empty()) modules.insert(library.pkg_config);
+    return modules;
+}
+
 std::vector<fs::path> include_dirs(const Plugin& plugin, const PluginBuildOptions& options) {
     std::vector<fs::path> dirs(options.include_dirs.begin(), options.include_dirs.end());
     const auto& of_project = plugin.sources.target.include_dirs;
@@ -73,7 +84,8 @@ std::vector<fs::path> include_dirs(const Plugin& plugin, const PluginBuildOption
     return dirs;
 }
 
-// Returns options for the C++ sources: those of the component's project, and headers to include first.
+// Returns options for the C++ sources: those of the component's project, headers to include first, and folders of
+// installed libraries. These come after all other folders, because a header in one must not hide another one.
 std::string compile_options(const Plugin& plugin) {
     auto options = plugin.sources.target.options;
     if (plugin.needs_cv_h) options.emplace_back("SHELL:-include cv.h -include highgui.h");
@@ -81,6 +93,8 @@ std::string compile_options(const Plugin& plugin) {
     for (const auto& option : options)
         text +=
             "add_compile_options(" + text::quote_cmake("$<$<COMPILE_LANGUAGE:CXX>:" + option + ">") + ")\n";
+    for (const auto& [dir, library] : plugin.installed)
+        text += "add_compile_options(" + text::quote_cmake("SHELL:-idirafter " + dir.string()) + ")\n";
     return text;
 }
 
@@ -90,9 +104,12 @@ int standard_of(const Plugin& plugin, const PluginBuildOptions& options) {
 }
 
 // Returns the libraries to link. Projects also name libraries that their sources do not need here.
-std::string libraries(const ProjectTarget& target, const PluginBuildOptions& options) {
+std::string libraries(const Plugin& plugin, const PluginBuildOptions& options) {
+    const auto& target = plugin.sources.target;
     std::vector<std::string> files = options.libraries, names;
     for (const auto& library : target.libraries) (library[0] == '/' ? files : names).push_back(library);
+    for (const auto& [dir, library] : plugin.installed)
+        for (const auto& file : library.libraries) files.push_back(file.string());
     return cmake_argument("LIBRARIES", files) + cmake_argument("LIBRARIES_IF_FOUND", names) +
            cmake_argument("LIBRARY_DIRS", absolute_names(target.library_dirs));
 }
@@ -102,8 +119,7 @@ std::string libraries(const ProjectTarget& target, const PluginBuildOptions& opt
 /// Paths are absolute, because the CMakeLists.txt is in the build folder.
 std::string cmake_project(const Plugin& plugin, const PluginBuildOptions& options, const fs::path& build,
                           const fs::path& forwards) {
-    const std::vector<std::string> found_modules(plugin.includes.pkg_config.begin(),
-                                                 plugin.includes.pkg_config.end());
+    const auto modules = used_modules(plugin);
     // Definitions from the command line come last, because the compiler uses the last definition of a name.
     std::vector<std::string> definitions = plugin.definitions;
     definitions.insert(definitions.end(), options.definitions.begin(), options.definitions.end());
@@ -116,16 +132,19 @@ std::string cmake_project(const Plugin& plugin, const PluginBuildOptions& option
            cmake_argument(rtm ? "CANDIDATES" : "SOURCES", absolute_names(plugin.sources.sources)) +
            (rtm ? cmake_argument("MORE_IDL", absolute_names(plugin.includes.idl_files)) : "") +
            cmake_argument("INCLUDE_DIRS", absolute_names(include_dirs(plugin, options))) +
-           cmake_argument("DEFINITIONS", definitions) + libraries(plugin.sources.target, options) +
+           cmake_argument("DEFINITIONS", definitions) + libraries(plugin, options) +
            cmake_argument("PKG_CONFIG", options.pkg_config) +
-           cmake_argument("PKG_CONFIG_IF_FOUND", found_modules) +
+           cmake_argument("PKG_CONFIG_IF_FOUND", {modules.begin(), modules.end()}) +
            cmake_argument("FORWARDS", {forwards.string()}) +
            fmt::format("\n  CXX_STANDARD {})\n", standard_of(plugin, options));
 }
 
 // Returns the advice that follows the first error of a failed step.
-std::string advice(const std::string& error, const Plugin& plugin, const fs::path& folder) {
-    std::string text = find_remedy(error, folder);
+std::string advice(const std::string& error, const Plugin& plugin, const PluginBuildOptions& options) {
+    const auto& folder = options.folder;
+    BuildFacts facts{folder, options.pkg_config, options.libraries};
+    for (const auto& module : used_modules(plugin)) facts.pkg_config.push_back(module);
+    std::string text = find_remedy(error, facts);
     // One of these files may define a function that no known library defines.
     if (text.find("--source FILE") != std::string::npos && !plugin.sources.left_out.empty()) {
         text = "these files were left out because " + plugin.sources.project_files + " does not list them:";
@@ -172,12 +191,12 @@ std::optional<std::string> run_cmake(const std::vector<std::string>& command, do
 
 // Prints the output of a failed step. The exception repeats the first error with advice, so that it is the
 // last line on the terminal.
-[[noreturn]] void fail(const std::string& output, const Plugin& plugin, const fs::path& folder,
+[[noreturn]] void fail(const std::string& output, const Plugin& plugin, const PluginBuildOptions& options,
                        const std::string& what) {
     print_text(output);
     const std::string error = first_error(output);
     throw std::runtime_error("component " + plugin.name + " " + what + ": " + error +
-                             advice(error, plugin, folder) + " (the compiler's output is above" +
+                             advice(error, plugin, options) + " (the compiler's output is above" +
                              (plugin.problem.empty() ? "" : "; " + plugin.problem) + ")");
 }
 
@@ -191,6 +210,19 @@ bool add_neighbours(const std::string& output, const fs::path& folder, Neighbour
             continue;
         print_note("tandem: {} is not in {}; using the file found elsewhere in this repository: {}\n", header,
                    folder.string(), found[0].lexically_proximate(fs::current_path()).string());
+        added = true;
+    }
+    return added;
+}
+
+// Adds the folders of installed libraries with missing headers, and prints notes. Returns whether it added one.
+bool add_installed(const std::string& output, std::map<fs::path, InstalledLibrary>& installed) {
+    bool added = false;
+    for (const auto& header : missing_headers(output)) {
+        const auto library = find_installed_library(header);
+        if (!library || !installed.emplace(library->include_dir, *library).second) continue;
+        print_note("tandem: using {} of {}{}\n", header, library->include_dir.string(),
+                   library->package.empty() ? "" : ", package " + library->package);
         added = true;
     }
     return added;
@@ -225,14 +257,15 @@ void compile(Plugin& plugin, const PluginBuildOptions& options, const fs::path& 
             run_cmake({"cmake", "-S", build.string(), "-B", bin, "-DCMAKE_BUILD_TYPE=" + options.build_type,
                        "-DCMAKE_HAVE_LIBC_PTHREAD=ON", "-DTandem_DIR=" + cmake_package_folder().string()},
                       options.timeout_s, plugin.name);
-        if (output) fail(*output, plugin, options.folder, "cannot be configured");
+        if (output) fail(*output, plugin, options, "cannot be configured");
         // Without a number, make would start one compiler per source.
         const auto processors = std::to_string(std::max(1U, std::thread::hardware_concurrency()));
         output =
             run_cmake({"cmake", "--build", bin, "--parallel", processors}, options.timeout_s, plugin.name);
         if (!output) return;
-        if (!add_neighbours(*output, options.folder, plugin.neighbours) && !add_cv_h(*output, plugin))
-            fail(*output, plugin, options.folder, "does not compile");
+        if (!add_neighbours(*output, options.folder, plugin.neighbours) &&
+            !add_installed(*output, plugin.installed) && !add_cv_h(*output, plugin))
+            fail(*output, plugin, options, "does not compile");
     }
 }
 
@@ -312,7 +345,7 @@ fs::path build_plugin(const std::string& model, const std::string& name, const E
     require_plain_names(options, output);
     Plugin plugin{model, name, select_sources(options.folder, entry_point, options.sources, {name, projects}),
                   {},    {},   {},
-                  {}};
+                  {},    {}};
     plugin.definitions = plugin.sources.target.sources.empty() ? read_cmake_lists(options.folder).definitions
                                                                : plugin.sources.target.definitions;
     plugin.problem = projects.problem();

@@ -4,8 +4,12 @@
 #include "apps/tandem/build/first_error.hpp"
 #include "apps/tandem/build/folder/checkout.hpp"
 #include "apps/tandem/build/folder/source_text.hpp"
-#include "apps/tandem/build/header_packages.hpp"
+#include "apps/tandem/build/packages/header_packages.hpp"
+#include "apps/tandem/build/packages/installed_library.hpp"
+#include "apps/tandem/build/packages/symbol_libraries.hpp"
 
+#include <algorithm>
+#include <fmt/format.h>
 #include <iterator>
 #include <map>
 #include <regex>
@@ -76,7 +80,16 @@ std::string between(const std::string& text, const std::string& before, const st
     return end == std::string::npos ? "" : text.substr(begin + before.size(), end - begin - before.size());
 }
 
-std::string install(const LibraryPackage& package) { return std::string("apt install ") + package.package; }
+bool is_installed(std::string_view package, const BuildFacts& facts) {
+    return !installed_files(package, facts.root).empty();
+}
+
+// Returns the remedy for something missing that the package has; `what` names it.
+std::string install(std::string_view package, const std::string& what, const BuildFacts& facts) {
+    if (!is_installed(package, facts)) return fmt::format("apt install {}", package);
+    return fmt::format("{} is installed and has no {}: the source needs another version of the library",
+                       package, what);
+}
 
 // Returns the options that name a folder with the file; "" if no folder is known.
 std::string options_for(const std::string& file, const std::filesystem::path& folder) {
@@ -91,13 +104,25 @@ std::string for_idl(const std::string& idl, const std::filesystem::path& folder)
     return options.empty() ? "add the folder of " + idl + " with -I DIR" : options;
 }
 
-std::string for_header(const std::string& header, const std::filesystem::path& folder) {
+std::string for_package(const std::string& header, const HeaderPackage& package, const BuildFacts& facts) {
+    if (package.certain || is_installed(package.package, facts))
+        return install(package.package, header, facts);
+    return fmt::format("if {}/{} is meant: apt install {}", package.folder, header, package.package);
+}
+
+std::string for_header(const std::string& header, const BuildFacts& facts) {
+    const auto& folder = facts.folder;
     if (auto options = options_for(header, folder); !options.empty()) return options;
     if (const auto idl = idl_of_header(header); !idl.empty())
         if (auto options = options_for(idl, folder); !options.empty()) return options;
     if (is_windows_header(header))
         return header + " is a Windows header: this source cannot be built on Linux";
-    if (const auto* package = find_package_of_header(header)) return install(*package);
+    if (const std::string end = "SVC_impl.h"; header.ends_with(end))
+        return fmt::format(
+            "RTCBuilder makes it from {}.idl for a service that a component provides: make it there, or "
+            "add its folder with -I DIR",
+            header.substr(0, header.size() - end.size()));
+    if (const auto package = find_package_of_header(header)) return for_package(header, *package, facts);
     if (const auto* origin = origin_outside_debian(header))
         return header + " belongs to " + origin +
                ", which Debian does not package: build it, then add its headers with -I DIR and its library "
@@ -106,11 +131,32 @@ std::string for_header(const std::string& header, const std::filesystem::path& f
 }
 
 // `symbol`: a function's name and parameters, as the linker prints them.
-std::string for_symbol(const std::string& symbol) {
-    const auto* package = find_package_of_symbol(symbol);
-    if (package && *package->pkg_config) return std::string("--pkg-config ") + package->pkg_config;
-    if (package) return std::string("-l ") + package->library;
-    return "add the library that defines it with -l NAME, or the source file with --source FILE";
+std::string for_symbol(const std::string& symbol, const BuildFacts& facts) {
+    const std::string unknown =
+        "add the library that defines it with -l NAME, or the source file with --source FILE";
+    const auto* found = find_library_of_symbol(symbol);
+    if (!found) return unknown;
+    const std::string module = found->pkg_config;
+    const auto& used = module.empty() ? facts.libraries : facts.pkg_config;
+    const std::string name = module.empty() ? found->library : module;
+    const auto package = module.empty() ? find_package_of_library(name) : find_package_of_module(name);
+    const std::string option = (module.empty() ? "-l " : "--pkg-config ") + name;
+    if (!package.empty() && !is_installed(package, facts))
+        return fmt::format("apt install {}, and add {}", package, option);
+    if (std::find(used.begin(), used.end(), name) == used.end()) return option;
+    return fmt::format("{} is used already and does not define it: {}", name, unknown);
+}
+
+std::string for_library(const std::string& library, const BuildFacts& facts) {
+    if (const auto package = find_package_of_library(library); !package.empty())
+        return install(package, "lib" + library + ".so", facts);
+    return "give the path of the library: -l /FOLDER/lib" + library + ".so";
+}
+
+std::string for_module(const std::string& module, const BuildFacts& facts) {
+    if (const auto package = find_package_of_module(module); !package.empty())
+        return install(package, module + ".pc", facts);
+    return ""; // the message says what to do
 }
 
 // Returns the name that the compiler does not know; "" if this is a different error.
@@ -142,21 +188,19 @@ std::string for_name(const std::string& name) {
 
 } // namespace
 
-std::string find_remedy(const std::string& error, const std::filesystem::path& folder) {
-    if (const auto header = missing_header(error); !header.empty()) return for_header(header, folder);
-    if (const auto idl = missing_idl(error); !idl.empty()) return for_idl(idl, folder);
-    if (const auto symbol = undefined_symbol(error); !symbol.empty()) return for_symbol(symbol);
-    if (const auto library = between(error + ":", "cannot find -l", ":"); !library.empty()) {
-        if (const auto* package = find_package_of_library(library)) return install(*package);
-        return "give the path of the library: -l /FOLDER/lib" + library + ".so";
-    }
+std::string find_remedy(const std::string& error, const BuildFacts& facts) {
+    if (const auto header = missing_header(error); !header.empty()) return for_header(header, facts);
+    if (const auto idl = missing_idl(error); !idl.empty()) return for_idl(idl, facts.folder);
+    if (const auto symbol = undefined_symbol(error); !symbol.empty()) return for_symbol(symbol, facts);
+    if (const auto library = between(error + ":", "cannot find -l", ":"); !library.empty())
+        return for_library(library, facts);
+    if (const auto module = between(error, "pkg-config knows no module ", ";"); !module.empty())
+        return for_module(module, facts);
     std::string definitions;
     for (const auto& macro : macros_that_avoid(error))
         definitions += (definitions.empty() ? "-D " : ", or -D ") + macro;
     if (!definitions.empty()) return definitions;
     if (auto text = for_name(unknown_name(error)); !text.empty()) return text;
-    if (error.find("required packages were not found") != std::string::npos)
-        return "install the Debian package that has the module's .pc file, or omit --pkg-config";
     return "";
 }
 

@@ -3,12 +3,20 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace tandem::command {
 
+/// What the failed build used.
+struct BuildFacts {
+    std::filesystem::path folder;                     ///< of the component
+    std::vector<std::string> pkg_config, libraries{}; ///< modules, and names after -l
+    std::filesystem::path root = "/";                 ///< folder with usr/ and var/
+};
+
 /// Returns advice for an error of the compiler or linker, for example the Debian package or the neighbouring
-/// component with the missing header or library; "" if there is none. `folder`: folder of the component.
-std::string find_remedy(const std::string& error, const std::filesystem::path& folder);
+/// component with the missing header or library; "" if there is none. Advises nothing that the build has used.
+std::string find_remedy(const std::string& error, const BuildFacts& facts);
 
 /// Returns the name in an "undefined reference" error of the linker; "" for other errors.
 std::string undefined_symbol(const std::string& error);

@@ -54,14 +54,23 @@ Paths named_sources(const fs::path& folder, const std::vector<std::string>& name
     return sources;
 }
 
+// Returns whether a pattern of --exclude means the file. A pattern that is the path of a source means only that one.
+bool is_excluded(const fs::path& file, const fs::path& folder, const std::string& pattern,
+                 const Paths& sources) {
+    const auto there = (folder / pattern).lexically_normal();
+    const auto here = fs::absolute(pattern).lexically_normal();
+    const auto is_path = [&](const auto& source) { return source == there || source == here; };
+    if (std::any_of(sources.begin(), sources.end(), is_path)) return is_path(file);
+    return matches(file, folder, pattern);
+}
+
 void remove_excluded(const fs::path& folder, const std::vector<std::string>& excluded, Paths& sources) {
     for (const auto& pattern : excluded) {
-        const auto end = std::remove_if(sources.begin(), sources.end(),
-                                        [&](const auto& source) { return matches(source, folder, pattern); });
-        if (end == sources.end())
+        const auto all = sources;
+        std::erase_if(sources, [&](const auto& source) { return is_excluded(source, folder, pattern, all); });
+        if (sources.size() == all.size())
             throw std::runtime_error("--exclude " + pattern + ": no source file in " + folder.string() +
                                      " matches");
-        sources.erase(end, sources.end());
     }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The command line of `tandem opros`.
 #include "apps/tandem/build/component_commands.hpp"
+#include "apps/tandem/census/census_commands.hpp"
 #include "apps/tandem/commands.hpp"
 #include "apps/tandem/import/commands.hpp"
 #include "apps/tandem/opros/commands.hpp"
@@ -98,6 +99,7 @@ void add_opros_commands(CLI::App& tandem, Action& selected) {
         "profile NAMEApp.xml, and CMakeLists.txt. Exit code 1 if the folder exists.",
         opros_new, selected);
     add_opros_build(*opros, selected);
+    add_census_command(*opros, opros_census_model, "component profiles with sources beside them", selected);
     add_opros_import(*opros, selected);
     add_running_opros_commands(*opros, selected);
 }

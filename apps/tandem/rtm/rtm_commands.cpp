@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The command line of `tandem rtm`.
 #include "apps/tandem/build/component_commands.hpp"
+#include "apps/tandem/census/census_commands.hpp"
 #include "apps/tandem/commands.hpp"
 #include "apps/tandem/import/commands.hpp"
 #include "apps/tandem/rtm/commands.hpp"
@@ -43,6 +44,7 @@ void add_rtm_commands(CLI::App& tandem, Action& selected) {
                     "folder exists.",
                     rtm_new, selected);
     add_rtm_build(*rtm, selected);
+    add_census_command(*rtm, rtm_census_model, "sources with a function NAMEInit(RTC::Manager*)", selected);
     add_rtm_import(*rtm, selected);
     add_running_commands(*rtm, selected);
 }

@@ -219,7 +219,9 @@ TEST_CASE("an error about a header or a library is followed by a remedy") {
     const Folder folder;
     folder.write("Old/Old.cpp", "");
     folder.write("Neighbour/include/Gain.h", "");
-    const auto remedy = [&](const std::string& error) { return find_remedy(error, folder.path() / "Old"); };
+    const auto remedy = [&](const std::string& error) {
+        return find_remedy(error, {folder.path() / "Old", {}, {}, folder.path() / "nothing installed"});
+    };
     const auto no_header = [&](const std::string& name) {
         return remedy("/x/Old.cpp:3:10: fatal error: " + name + ": No such file or directory");
     };
@@ -240,9 +242,12 @@ TEST_CASE("an error about a header or a library is followed by a remedy") {
     CHECK_THAT(no_header("Gain.h"), Catch::Contains("Neighbour/include") && Catch::Contains(", or -I "));
     CHECK_THAT(no_header("afxwin.h"), Catch::Contains("a Windows header"));
     CHECK_THAT(no_header("Vendor.h"), Catch::Contains("-I DIR"));
-    CHECK(remedy("Old.cpp:9: undefined reference to `cvReleaseImage'") == "--pkg-config opencv4");
-    CHECK(remedy("Old.cpp:9: undefined reference to `jpeg_CreateDecompress'") == "--pkg-config libjpeg");
-    CHECK(remedy("Old.cpp:9: undefined reference to `boost::thread::join()'") == "-l boost_thread");
+    CHECK(remedy("Old.cpp:9: undefined reference to `cvReleaseImage'") ==
+          "apt install libopencv-dev, and add --pkg-config opencv4");
+    CHECK(remedy("Old.cpp:9: undefined reference to `jpeg_CreateDecompress'") ==
+          "apt install libjpeg-dev, and add --pkg-config libjpeg");
+    CHECK(remedy("Old.cpp:9: undefined reference to `boost::thread::join()'") ==
+          "apt install libboost-thread-dev, and add -l boost_thread");
     CHECK_THAT(remedy("Old.cpp:9: undefined reference to `nowhere()'"), Catch::Contains("--source FILE"));
     CHECK(remedy("/usr/bin/ld: cannot find -lode: No such file or directory") == "apt install libode-dev");
     const auto header =
