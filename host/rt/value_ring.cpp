@@ -9,7 +9,8 @@ namespace tandem::rt {
 CellRing::CellRing(std::size_t depth)
     : cells_(depth), writer_{depth, 0, static_cast<std::uint32_t>(depth)},
       published_(depth), reader_{depth, 0, static_cast<std::uint32_t>(depth + 1)}, taken_(depth) {
-    for (std::uint32_t i = 0; i < depth; ++i) cells_[i].store(pack(i, false, i), std::memory_order_relaxed);
+    for (std::uint32_t i = 0; i < depth; ++i)
+        cells_[i].word.store(pack(i, false, i), std::memory_order_relaxed);
 }
 
 std::size_t CellRing::size() const {
@@ -23,7 +24,7 @@ std::size_t CellRing::size() const {
 bool CellRing::take_overtaken() {
     constexpr int max_attempts = 64;
     for (int i = 0; i < max_attempts; ++i) {
-        std::uint64_t word = cells_[reader_.cell].load(std::memory_order_acquire);
+        std::uint64_t word = cells_[reader_.cell].word.load(std::memory_order_acquire);
         if (!is_unread(word)) return false;
         if (const std::int64_t ahead = distance(word, reader_.position); ahead != 0) {
             // The word is of the newest value of this cell, so the oldest value is in the next cell.
@@ -41,7 +42,7 @@ bool CellRing::take_overtaken() {
 bool CellRing::take_peeked() {
     has_peeked_ = false;
     set_taken(reader_.position);
-    const std::uint64_t word = cells_[cell_at(reader_, -1)].load(std::memory_order_acquire);
+    const std::uint64_t word = cells_[cell_at(reader_, -1)].word.load(std::memory_order_acquire);
     return distance(word, reader_.position - 1) == 0;
 }
 
@@ -61,26 +62,26 @@ std::size_t CellRing::cell_at(const End& end, long offset) const {
 // before. take() does the same in the other direction.
 std::uint32_t CellRing::writers(long offset) const {
     return offset == 0 ? writer_.value
-                       : index(cells_[cell_at(writer_, offset > 0 ? offset - 1 : offset)].load());
+                       : index(cells_[cell_at(writer_, offset > 0 ? offset - 1 : offset)].word.load());
 }
 
 std::uint32_t CellRing::readers(long offset) const {
     return offset == -1 ? reader_.value
-                        : index(cells_[cell_at(reader_, offset < 0 ? offset + 1 : offset)].load());
+                        : index(cells_[cell_at(reader_, offset < 0 ? offset + 1 : offset)].word.load());
 }
 
 void CellRing::unpublish() {
     step_back(writer_);
-    const std::uint64_t before = cells_[writer_.cell].load();
-    cells_[writer_.cell] = pack(writer_.position - cells_.size(), false, writer_.value);
+    const std::uint64_t before = cells_[writer_.cell].word.load();
+    cells_[writer_.cell].word = pack(writer_.position - cells_.size(), false, writer_.value);
     writer_.value = index(before);
     published_ = writer_.position;
 }
 
 void CellRing::untake() {
     step_back(reader_);
-    const std::uint64_t before = cells_[reader_.cell].load();
-    cells_[reader_.cell] = pack(reader_.position, true, reader_.value);
+    const std::uint64_t before = cells_[reader_.cell].word.load();
+    cells_[reader_.cell].word = pack(reader_.position, true, reader_.value);
     reader_.value = index(before);
     set_taken(reader_.position);
 }

@@ -7,12 +7,16 @@
 // empties or fills a cell exchanges the value in the cell for one that it owns. So there are two more values than
 // cells. A writer that finds a free cell stores its word without a locked instruction. A reader, and a writer that
 // drops the oldest value, exchange the word atomically, so that each value is either read or dropped.
+//
+// A value is often a chain of pointers. Beside the word, the cell therefore has the addresses of the value's parts, so
+// that the reader requests all of them at once.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
+#include <tuple>
 #include <vector>
 
 namespace tandem::rt {
@@ -22,6 +26,9 @@ class CellRing {
   public:
     /// Largest depth; an index has 20 bits.
     static constexpr std::size_t max_depth = (std::size_t{1} << 20U) - 2;
+    static constexpr std::size_t line = 64;
+    /// Addresses of cache lines that the reader of a value needs. They are only prefetched.
+    using Parts = std::array<const void*, 4>;
 
     explicit CellRing(std::size_t depth);
     CellRing(const CellRing&) = delete;
@@ -33,17 +40,19 @@ class CellRing {
     /// Returns the index of the value that the writer may change until it publishes it. [writing thread]
     std::uint32_t writers() const { return writer_.value; }
     /// Returns whether the next publish() drops the oldest value. [writing thread]
-    bool is_full() const { return is_unread(cells_[writer_.cell].load(std::memory_order_acquire)); }
+    bool is_full() const { return is_unread(cells_[writer_.cell].word.load(std::memory_order_acquire)); }
     /// Appends the writer's value, and gives the writer another one. Returns whether the oldest value was dropped for
     /// it. [writing thread]
-    bool publish() {
-        std::atomic<std::uint64_t>& cell = cells_[writer_.cell];
+    bool publish(const Parts& parts = {}) {
+        Cell& cell = cells_[writer_.cell];
         const std::uint64_t word = pack(writer_.position, true, writer_.value);
-        std::uint64_t before = cell.load(std::memory_order_acquire);
+        std::uint64_t before = cell.word.load(std::memory_order_acquire);
+        for (std::size_t i = 0; i < parts.size(); ++i)
+            cell.parts[i].store(parts[i], std::memory_order_relaxed);
         if (is_unread(before)) [[unlikely]]
-            before = cell.exchange(word, std::memory_order_acq_rel);
+            before = cell.word.exchange(word, std::memory_order_acq_rel);
         else // only this thread changes a cell that was read
-            cell.store(word, std::memory_order_release);
+            cell.word.store(word, std::memory_order_release);
         writer_.value = index(before);
         step(writer_);
         published_.store(writer_.position, std::memory_order_release);
@@ -53,15 +62,17 @@ class CellRing {
     /// Returns whether there is nothing to read. Loads one word, which stays in the cache until the writer stores it.
     /// [reading thread]
     bool empty() const {
-        return !has_peeked_ && !is_unread(cells_[reader_.cell].load(std::memory_order_acquire));
+        return !has_peeked_ && !is_unread(cells_[reader_.cell].word.load(std::memory_order_acquire));
     }
     /// Takes the oldest value. Its index is readers() until the next take() or peek(). Returns false if there is none.
     /// [reading thread]
     bool take() {
         if (has_peeked_) [[unlikely]]
             if (take_peeked()) return true;
-        std::uint64_t word = cells_[reader_.cell].load(std::memory_order_acquire);
+        const Cell& cell = cells_[reader_.cell];
+        std::uint64_t word = cell.word.load(std::memory_order_acquire);
         if (!is_unread(word)) return false;
+        for (const auto& part : cell.parts) __builtin_prefetch(part.load(std::memory_order_relaxed), 1);
         if (try_take(word)) [[likely]]
             return true;
         return take_overtaken();
@@ -86,6 +97,12 @@ class CellRing {
   private:
     static constexpr unsigned index_bits = 20, position_shift = index_bits + 1;
     static constexpr std::uint64_t unread_bit = std::uint64_t{1} << index_bits;
+
+    /// In a cache line of its own, because the writer fills one while the reader polls the next.
+    struct alignas(line) Cell {
+        std::atomic<std::uint64_t> word;
+        std::array<std::atomic<const void*>, std::tuple_size_v<Parts>> parts;
+    };
 
     /// One end. `position` counts values, `cell` is its cell.
     struct End {
@@ -118,9 +135,9 @@ class CellRing {
     bool try_take(std::uint64_t& word) {
         if (distance(word, reader_.position) != 0) [[unlikely]]
             return false;
-        if (!cells_[reader_.cell].compare_exchange_strong(word, pack(reader_.position, false, reader_.value),
-                                                          std::memory_order_acq_rel,
-                                                          std::memory_order_acquire)) [[unlikely]]
+        if (!cells_[reader_.cell].word.compare_exchange_strong(
+                word, pack(reader_.position, false, reader_.value), std::memory_order_acq_rel,
+                std::memory_order_acquire)) [[unlikely]]
             return false;
         reader_.value = index(word);
         step(reader_);
@@ -131,9 +148,8 @@ class CellRing {
     bool take_overtaken();
     void set_taken(std::uint64_t position) { taken_.store(position, std::memory_order_relaxed); }
 
-    static constexpr std::size_t line = 64; // each end has a cache line to itself
-
-    std::vector<std::atomic<std::uint64_t>> cells_;
+    std::vector<Cell> cells_;
+    // Each end has a cache line to itself.
     alignas(line) End writer_;
     std::atomic<std::uint64_t> published_; ///< writer_.position
     alignas(line) End reader_;
@@ -148,14 +164,17 @@ class ValueRing : public CellRing {
     /// depth: 1 to max_depth. A full ring holds this many values.
     explicit ValueRing(std::size_t depth) : CellRing(depth), values_(depth + 2) {}
 
-    Value& at(std::uint32_t index) { return values_[index]; }
+    Value& at(std::uint32_t index) { return values_[index].value; }
     /// The value that publish() appends. It holds an old value, whose memory can be used again. [writing thread]
-    Value& next() { return values_[writers()]; }
+    Value& next() { return at(writers()); }
     /// The value that was taken or looked at last. [reading thread]
-    Value& last() { return values_[readers()]; }
+    Value& last() { return at(readers()); }
 
   private:
-    std::vector<Value> values_;
+    struct alignas(line) Place {
+        Value value{};
+    };
+    std::vector<Place> values_;
 };
 
 } // namespace tandem::rt

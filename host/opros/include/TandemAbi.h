@@ -3,7 +3,7 @@
 #ifndef TANDEM_ABI_H_
 #define TANDEM_ABI_H_
 
-#define TANDEM_OPROS_ABI 25 // headers: b8a9a8aea4c33168
+#define TANDEM_OPROS_ABI 26 // headers: 1519436000ed2127
 
 // Stored as an ELF note in every object file, for the loader. A note, unlike a symbol, needs no linking and cannot
 // clash, and no linker drops it, even with --gc-sections, a version script, hidden visibility, LTO or strip.
