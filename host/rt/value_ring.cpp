@@ -19,21 +19,30 @@ std::size_t CellRing::size() const {
     return published > taken ? std::min<std::size_t>(published - taken, cells_.size()) : 0;
 }
 
-/// The writer has dropped the value at the reader's position, before or while this thread looked. Each failed attempt
-/// means that the writer has filled the whole ring meanwhile.
+/// Moves the reader to the oldest value, if the writer has dropped the one at its position. Returns false if there is no
+/// value.
+bool CellRing::catch_up() {
+    const std::uint64_t word = cells_[reader_.cell].word.load(std::memory_order_acquire);
+    if (!is_unread(word)) return false;
+    if (const std::int64_t ahead = distance(word, reader_.position); ahead != 0) {
+        // The word is of the newest value of this cell. published_ may be one behind.
+        const std::uint64_t oldest =
+            std::max(reader_.position + static_cast<std::uint64_t>(ahead) + 1 - cells_.size(),
+                     published_.load(std::memory_order_acquire) - cells_.size());
+        reader_.cell =
+            static_cast<std::uint32_t>(cell_at(reader_, static_cast<long>(oldest - reader_.position)));
+        reader_.position = oldest;
+        set_taken(reader_.position);
+    }
+    return true;
+}
+
+/// Each failed attempt means that the writer has dropped values meanwhile.
 bool CellRing::take_overtaken() {
     constexpr int max_attempts = 64;
-    for (int i = 0; i < max_attempts; ++i) {
+    for (int i = 0; i < max_attempts && catch_up(); ++i) {
         std::uint64_t word = cells_[reader_.cell].word.load(std::memory_order_acquire);
-        if (!is_unread(word)) return false;
-        if (const std::int64_t ahead = distance(word, reader_.position); ahead != 0) {
-            // The word is of the newest value of this cell, so the oldest value is in the next cell.
-            reader_.position += static_cast<std::uint64_t>(ahead) - cells_.size();
-            step(reader_);
-            set_taken(reader_.position);
-        } else if (try_take(word)) {
-            return true;
-        }
+        if (is_unread(word) && try_take(word)) return true;
     }
     return false;
 }
@@ -65,7 +74,8 @@ std::uint32_t CellRing::writers(long offset) const {
                        : index(cells_[cell_at(writer_, offset > 0 ? offset - 1 : offset)].word.load());
 }
 
-std::uint32_t CellRing::readers(long offset) const {
+std::uint32_t CellRing::readers(long offset) {
+    catch_up();
     return offset == -1 ? reader_.value
                         : index(cells_[cell_at(reader_, offset < 0 ? offset + 1 : offset)].word.load());
 }

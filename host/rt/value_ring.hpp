@@ -85,7 +85,7 @@ class CellRing {
 
     /// Return the index of a value relative to the next one to write or to read. [no other thread uses the ring]
     std::uint32_t writers(long offset) const;
-    std::uint32_t readers(long offset) const;
+    std::uint32_t readers(long offset);
     /// Undo the last publish() or take(). [no other thread uses the ring]
     void unpublish();
     void untake();
@@ -145,6 +145,7 @@ class CellRing {
         return true;
     }
     bool take_peeked();
+    bool catch_up();
     bool take_overtaken();
     void set_taken(std::uint64_t position) { taken_.store(position, std::memory_order_relaxed); }
 
