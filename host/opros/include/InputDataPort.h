@@ -46,6 +46,7 @@ class InputDataPort : public InputDataPortInterface {
         return dst->checkType(value);
     }
     virtual opros_any sample() const { return opros_any(dataType()); }
+    virtual bool canRehearsePush() const { return typeid(*this) == typeid(InputDataPort); }
 };
 
 #endif

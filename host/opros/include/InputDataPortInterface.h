@@ -45,6 +45,8 @@ class InputDataPortInterface : public DataPort {
     /// Ours, for the host: runs the code of pop() without taking a value. Decodes the last value again if it came from a
     /// source. [consumer's thread]
     void rehearse();
+    /// Ours, for the host: returns whether push() has no effect in a rehearsal, because it is not the component's own code.
+    virtual bool canRehearsePush() const { return false; }
     /// Sets the listener of the port and its sources, or none if NULL. It must outlive all pushes and sources (ours).
     void setListener(DataPortListener* listener);
     /// Sets the queue that a profile asks for, before the port is in use. Returns OPROS_PRECONDITION_NOT_MET if the

@@ -16,7 +16,8 @@ class DataConnection : public Connection, public IDataPortLink, public rt::Rehea
   public:
     /// The caller must have checked that the types match.
     DataConnection(OutputDataPortInterface& source, InputDataPortInterface& destination)
-        : source_(source), can_rehearse_(dynamic_cast<rt::Rehearsable*>(&destination) != nullptr),
+        : source_(source), can_rehearse_(destination.canRehearsePush() ||
+                                         dynamic_cast<rt::Rehearsable*>(&destination) != nullptr),
           destination_(&destination) {
         source_.addConnection(this);
     }
@@ -31,7 +32,7 @@ class DataConnection : public Connection, public IDataPortLink, public rt::Rehea
     ReturnType push(opros_any& data) override {
         return destination_ ? destination_->push(data) : OPROS_SUCCESS;
     }
-    /// Returns false for the queue of a component, to which a rehearsal would add a value.
+    /// Returns false for a port whose push() the component has overridden.
     bool can_rehearse() const override { return can_rehearse_; }
     ReturnType setSource(DataPort*) override { return OPROS_UNSUPPORTED_METHOD; }
     ReturnType addDestination(DataPort*) override { return OPROS_UNSUPPORTED_METHOD; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/opros/runtime/port/input_data_port_impl.hpp"
 
+#include "host/rt/crossings.hpp"
 #include "host/rt/rehearsal.hpp"
 
 #include <algorithm>
@@ -16,25 +17,57 @@ constexpr int max_values_per_poll = 4096;
 /// A polling consumer rehearses reading the next value after each such number of empty pops.
 constexpr unsigned empty_pops_per_rehearsal = 4096;
 
+/// Returns where a value lies. Of the elements of a vector of numbers, it has the first two lines.
+tandem::rt::CellRing::Parts parts_of(opros_any& value) {
+    opros_any::holder_base* const held = value.held();
+    const auto* const elements = static_cast<const std::byte*>(held->elements().begin);
+    return {&value, held, elements, elements + tandem::rt::CellRing::line};
+}
+
 } // namespace
 
 InputDataPortImpl::InputDataPortImpl(InputDataPortInterface& port, DataPortPolicy policy, unsigned int limit)
-    : port_(port), queue_(policy, limit) {}
+    : port_(port), queue_(policy, limit) {
+    choose_way();
+}
 
 void InputDataPortImpl::push(const opros_any& value) {
     {
-        const tandem::rt::ShortLock lock(mutex_);
-        const bool has_sources = !sources_.empty();
-        if (has_sources) [[unlikely]]
-            poll_sources(); // values that wait there are older
-        // A new slot gets an object that this port's code has created, and the copy is assigned to it. The given
-        // object may belong to a library that is unloaded before this port.
-        opros_any& slot = has_sources ? queue_.push_from(nullptr) : queue_.push();
-        if (slot.empty()) slot = port_.sample();
-        slot = value;
-        update_hints();
+        if (!push_mutex_.lock_unless_rehearsing()) return;
+        const tandem::rt::ShortLock lock(push_mutex_, std::adopt_lock);
+        if (ring_)
+            push_into_ring(value);
+        else if (!rehearsing())
+            push_into_queue(value);
     }
+    if (rehearsing()) return;
     if (DataPortListener* listener = listener_.load(std::memory_order_acquire)) listener->arrived();
+}
+
+// A new value gets an object that this port's code has created, and the copy is assigned to it. The given object may belong
+// to a library that is unloaded before this port.
+inline void InputDataPortImpl::push_into_ring(const opros_any& value) {
+    opros_any& next = ring_->next();
+    if (next.empty()) [[unlikely]]
+        next = port_.sample();
+    if (rehearsing()) {
+        tandem::rt::note_crossings(ring_->published());
+        ring_->prefetch_for_publish();
+        for (const void* part : parts_of(next)) __builtin_prefetch(part, 1);
+    }
+    next = value;
+    if (!rehearsing()) ring_->publish(parts_of(next));
+}
+
+void InputDataPortImpl::push_into_queue(const opros_any& value) {
+    const tandem::rt::ShortLock lock(mutex_);
+    const bool has_sources = !sources_.empty();
+    if (has_sources) [[unlikely]]
+        poll_sources(); // values that wait there are older
+    opros_any& slot = has_sources ? queue_.push_from(nullptr) : queue_.push();
+    if (slot.empty()) slot = port_.sample();
+    slot = value;
+    update_hints();
 }
 
 // Takes a reference to the pointer, which is needed again only after an exception.
@@ -59,6 +92,7 @@ opros_any* InputDataPortImpl::pop() {
     if (!may_have_values_.load(std::memory_order_acquire)) return nullptr;
     if (!mutex_.lock_unless_rehearsing()) return nullptr;
     const tandem::rt::ShortLock lock(mutex_, std::adopt_lock);
+    if (ring_) return pop_from_ring();
     if (!sole_source_ || queue_.size() != 0) return pop_from_queue();
     // Does not look at the source a second time, since the source is most likely empty then. In shared memory, such a
     // look costs as much as reading a value.
@@ -71,7 +105,21 @@ opros_any* InputDataPortImpl::pop_after(ReadResult result) {
     for (int i = 1; result == ReadResult::undecodable && i < max_values_per_poll; ++i)
         result = read_one(sole_source_);
     if (result == ReadResult::value) return pool_.lend(decoded_);
-    if (result == ReadResult::no_value && !rehearsing() && ++empty_pops_ % empty_pops_per_rehearsal == 0) {
+    return result == ReadResult::no_value ? found_nothing() : nullptr;
+}
+
+inline opros_any* InputDataPortImpl::pop_from_ring() {
+    if (rehearsing()) {
+        tandem::rt::note_crossings(ring_->taken());
+        ring_->prefetch_for_take();
+        return pool_.lend(decoded_);
+    }
+    return ring_->take() ? pool_.lend(ring_->last()) : found_nothing();
+}
+
+/// Counts a pop that found no value, and returns NULL.
+opros_any* InputDataPortImpl::found_nothing() {
+    if (!rehearsing() && ++empty_pops_ % empty_pops_per_rehearsal == 0) {
         const tandem::rt::Rehearsal rehearsal;
         rehearse_reading();
     }
@@ -94,6 +142,7 @@ opros_any* InputDataPortImpl::pop_from_queue() {
 opros_any* InputDataPortImpl::peek() {
     if (!may_have_values_.load(std::memory_order_acquire)) return nullptr;
     const std::lock_guard lock(mutex_);
+    if (ring_) return ring_->peek() ? new opros_any(ring_->last()) : nullptr;
     poll_sources();
     return queue_.size() == 0 ? nullptr : new opros_any(queue_.front());
 }
@@ -101,6 +150,7 @@ opros_any* InputDataPortImpl::peek() {
 std::size_t InputDataPortImpl::size() {
     if (!may_have_values_.load(std::memory_order_acquire)) return 0;
     const std::lock_guard lock(mutex_);
+    if (ring_) return ring_->size();
     poll_sources();
     return queue_.size();
 }
@@ -122,6 +172,7 @@ inline std::optional<std::size_t> InputDataPortImpl::count_in_sources() {
 std::size_t InputDataPortImpl::count_waiting() {
     if (!may_have_values_.load(std::memory_order_acquire)) return 0;
     const tandem::rt::ShortLock lock(mutex_);
+    if (ring_) return ring_->size();
     if (queue_.size() == 0)
         if (const auto waiting = count_in_sources(); waiting && *waiting <= 1) [[likely]]
             return *waiting;
@@ -136,26 +187,28 @@ void InputDataPortImpl::clear() {
     const std::lock_guard lock(mutex_);
     for (DataPortSource* source : sources_)
         for (int i = 0; i < max_values_per_poll && source->take(nullptr); ++i) continue;
+    if (ring_)
+        for (int i = 0; i < max_values_per_poll && ring_->take(); ++i) continue;
     queue_.clear();
     update_hints();
 }
 
 void InputDataPortImpl::add_source(DataPortSource* source) {
-    const std::lock_guard lock(mutex_);
+    const std::scoped_lock lock(push_mutex_, mutex_);
     sources_.push_back(source);
     source->setDepth(queue_.depth());
-    choose_sole_source();
+    choose_way();
     give_listener_to(source);
     update_hints();
 }
 
 // The lock makes the caller wait for a poll that uses the source.
 void InputDataPortImpl::remove_source(DataPortSource* source) {
-    const std::lock_guard lock(mutex_);
+    const std::scoped_lock lock(push_mutex_, mutex_);
     sources_.erase(std::remove(sources_.begin(), sources_.end(), source), sources_.end());
-    choose_sole_source();
     if (listener_.load(std::memory_order_relaxed)) source->setListener(nullptr);
     queue_.forget(source);
+    choose_way();
     polled_sources_.erase(source);
     has_polled_sources_ = !polled_sources_.empty();
     update_hints();
@@ -180,23 +233,44 @@ void InputDataPortImpl::give_listener_to(DataPortSource* source) {
 }
 
 bool InputDataPortImpl::replace_default_queue(DataPortPolicy policy, unsigned int limit) {
-    const std::lock_guard lock(mutex_);
+    const std::scoped_lock lock(push_mutex_, mutex_);
     if (!queue_is_default_) return false;
     queue_ = opros::DataQueue(policy, limit);
     for (DataPortSource* source : sources_) source->setDepth(queue_.depth());
-    choose_sole_source();
-    update_hints();
+    ring_.reset(); // it has the old depth
+    choose_way();
     return true;
 }
 
-// A polling consumer must not compete for the lock with pushing threads if there is no value. Whether a source has a
-// value is not known here, so a port with sources counts as having one.
+// A polling consumer must not compete for the lock with pushing threads if there is no value. Whether the ring or a source
+// has a value is not known here, so a port with one of them counts as having a value.
 void InputDataPortImpl::update_hints() {
-    may_have_values_.store(queue_.size() != 0 || !sources_.empty(), std::memory_order_release);
+    may_have_values_.store(ring_ != nullptr || queue_.size() != 0 || !sources_.empty(),
+                           std::memory_order_release);
 }
 
-void InputDataPortImpl::choose_sole_source() {
+/// Chooses how values get from a pushing thread, or from a source, to the consumer.
+void InputDataPortImpl::choose_way() {
     sole_source_ = sources_.size() == 1 && queue_.keeps_order() ? sources_.front() : nullptr;
+    const std::size_t depth = queue_.depth();
+    const bool can_use_ring =
+        sources_.empty() && depth != 0 && depth <= tandem::rt::ValueRing<opros_any>::max_depth;
+    if (can_use_ring && !ring_) move_to_ring();
+    if (!can_use_ring && ring_) move_to_queue();
+    update_hints();
+}
+
+void InputDataPortImpl::move_to_ring() {
+    ring_ = std::make_unique<tandem::rt::ValueRing<opros_any>>(queue_.depth());
+    for (; queue_.size() != 0; queue_.pop()) {
+        ring_->next().swap(queue_.front());
+        ring_->publish();
+    }
+}
+
+void InputDataPortImpl::move_to_queue() {
+    while (ring_->take()) queue_.push().swap(ring_->last());
+    ring_.reset();
 }
 
 /// Moves the waiting values of the sources into the queue, whose policy decides which values to drop. A sender that waits
@@ -213,6 +287,8 @@ void InputDataPortImpl::poll_sources() {
 }
 
 void InputDataPortImpl::rehearse_reading() {
-    if (sources_.size() == 1 && read_one(sources_.front()) == ReadResult::value)
+    if (ring_)
+        delete pop_from_ring();
+    else if (sources_.size() == 1 && read_one(sources_.front()) == ReadResult::value)
         delete pool_.lend(decoded_); // lends as pop() does, and deletes as the component does
 }

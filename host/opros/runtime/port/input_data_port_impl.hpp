@@ -4,26 +4,32 @@
 #include "host/opros/runtime/port/data_queue.hpp"
 #include "host/opros/runtime/port/value_pool.hpp"
 #include "host/rt/short_mutex.hpp"
+#include "host/rt/value_ring.hpp"
 
 #include <InputDataPortInterface.h>
 
 #include <atomic>
+#include <cstddef>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <set>
 #include <vector>
 
-/// Implements InputDataPortInterface: one queue, filled by pushes of any thread and by sources, which are polled when
-/// the consumer asks. [any-thread] all functions; one mutex guards everything except the atomics.
+/// Implements InputDataPortInterface: values that are pushed by any thread, and sources, which are polled when the
+/// consumer asks. [any-thread] all functions.
 ///
-/// The consumer's path is short, because a control loop polls its ports in every cycle. An empty port without sources
-/// is detected without the lock. With FIFO and UFIFO, a consumer that keeps up with its source gets the value without
-/// going through the queue.
+/// Pushing threads and the consumer have a mutex each, which therefore mostly has an owner. If the policy drops old values
+/// (FIFO and LAST) and there are no sources, the values go through a ring, where the two do not meet. Otherwise they go
+/// through the queue, and a push locks both mutexes, its own first. So does a change between ring and queue.
+///
+/// The consumer's path is short, because a control loop polls its ports in every cycle. With FIFO and UFIFO, a consumer that
+/// keeps up with its source gets the value without going through the queue.
 class InputDataPortImpl {
   public:
     InputDataPortImpl(InputDataPortInterface& port, DataPortPolicy policy, unsigned int limit);
 
-    /// Stores a copy, releases the lock and calls the listener.
+    /// Stores a copy, releases the locks and calls the listener. In a rehearsal stores nothing.
     void push(const opros_any& value);
     /// Returns the next value, which the consumer deletes, or NULL if there is none. In a rehearsal takes nothing: it
     /// returns the source's last value once more, or NULL.
@@ -51,19 +57,37 @@ class InputDataPortImpl {
   private:
     enum class ReadResult { no_value, undecodable, value };
 
-    // All require mutex_ to be held.
+    // Require push_mutex_ to be held.
+    void push_into_ring(const opros_any& value);
+    void push_into_queue(const opros_any& value);
+    // Require both mutexes to be held.
+    void choose_way();
+    void move_to_queue();
+    void move_to_ring();
+
+    // All others require mutex_ to be held.
     void update_hints();
     void give_listener_to(DataPortSource* source);
     void poll_sources();
     std::optional<std::size_t> count_in_sources();
     ReadResult read_one(DataPortSource* const& source);
     opros_any* pop_after(ReadResult result);
+    opros_any* pop_from_ring();
     opros_any* pop_from_queue();
-    void choose_sole_source();
+    opros_any* found_nothing();
     void rehearse_reading();
 
-    InputDataPortInterface& port_;
-    tandem::rt::ShortMutex mutex_;
+    static constexpr std::size_t line = 64; // a pushing thread and the consumer write different cache lines
+
+    alignas(line) InputDataPortInterface& port_;
+    std::unique_ptr<tandem::rt::ValueRing<opros_any>> ring_; // changes with both mutexes held; NULL: not used
+    // These change with mutex_ held and are read without it.
+    std::atomic<bool> may_have_values_{false}, has_polled_sources_{false};
+    std::atomic<DataPortListener*> listener_{nullptr};
+
+    alignas(line) tandem::rt::ShortMutex push_mutex_; // for the end of ring_ that writes
+
+    alignas(line) tandem::rt::ShortMutex mutex_; // for all that follows, and the other end of ring_
     opros::DataQueue queue_;
     // set if there is exactly one source and the queue keeps the order
     DataPortSource* sole_source_ = nullptr;
@@ -71,9 +95,6 @@ class InputDataPortImpl {
     std::set<DataPortSource*> polled_sources_; // those that do not notify the listener
     opros_any decoded_; // values are decoded here first: a broken one must not damage the queue
     opros::ValuePool pool_;
-    unsigned empty_pops_ = 0; // pops that found the sources empty
+    unsigned empty_pops_ = 0; // pops that found the ring or the sources empty
     bool queue_is_default_ = false;
-    // Both change with the lock held and are read without it.
-    std::atomic<bool> may_have_values_{false}, has_polled_sources_{false};
-    std::atomic<DataPortListener*> listener_{nullptr};
 };

@@ -85,12 +85,19 @@ class OutPort : public OutPortBase {
             const std::unique_lock<DataMutex> lock(m_dataMutex);
             if (m_connectors.empty()) return false;
             m_status.resize(m_connectors.size());
-            OutPortConnector* first = m_connectors.front();
+            // Numbers are copied into each receiver's buffer as fast as their bytes. A long value is not copied twice.
+            const bool in_place = m_connectors.size() == 1 || isLong(value) ||
+                                  CdrMarshal<DataType>(value).numbers().tm != nullptr;
+            OutPortConnector* encoded = nullptr; // the last connector that has serialized the value
             for (std::size_t i = 0; i < m_connectors.size(); ++i) {
                 OutPortConnector* connector = m_connectors[i];
-                const bool same_bytes = i > 0 && connector->canShareBytesOf(*first);
-                m_status[i] =
-                    same_bytes ? connector->write(first->serializedBytes()) : connector->write(value);
+                if (encoded != nullptr && connector->canShareBytesOf(*encoded)) {
+                    m_status[i] = connector->write(encoded->serializedBytes());
+                } else {
+                    m_status[i] = connector->write(value, in_place);
+                    if (connector->hasSerialized() && m_status[i] != DataPortStatus::PORT_ERROR)
+                        encoded = connector;
+                }
                 if (m_status[i] != DataPortStatus::PORT_OK) all_accepted = false;
                 if (m_status[i] == DataPortStatus::CONNECTION_LOST) lost.push_back(connector->id());
             }

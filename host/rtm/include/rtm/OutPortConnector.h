@@ -29,9 +29,10 @@ class OutPortConnector : public ConnectorBase {
     /// Sends serialized bytes, which contain their byte order.
     virtual DataPortStatus write(ByteData& bytes) = 0;
     /// Sends a value. Returns PORT_ERROR if it cannot be serialized, otherwise the result of the receiver or the
-    /// buffer.
+    /// buffer. `in_place`: may encode it directly into the receiver's buffer; otherwise other connectors can share the
+    /// bytes.
     template <class DataType>
-    DataPortStatus write(DataType& data) {
+    DataPortStatus write(DataType& data, bool in_place = true) {
         auto* stream = m_serializer.get<DataType>(m_marshaling_type, m_profile.name, rtclog);
         if (stream == nullptr) return DataPortStatus::PORT_ERROR;
         const bool stamps =
@@ -43,8 +44,8 @@ class OutPortConnector : public ConnectorBase {
             if (m_sentInPlace) return status;
         }
         // The length of this message is unknown before it is encoded. The last message's length serves as a guess.
-        if (m_bytes.getDataLength() >= m_minInPlaceLength && m_serializer.isStandardCdr() && m_littleEndian &&
-            !stamps) {
+        if (in_place && m_bytes.getDataLength() >= m_minInPlaceLength && m_serializer.isStandardCdr() &&
+            m_littleEndian && !stamps) {
             DataPortStatus status = DataPortStatus::PORT_OK;
             m_sentInPlace = writeInPlace(CdrMarshal<DataType>(data), status);
             if (m_sentInPlace) return status;
@@ -68,8 +69,10 @@ class OutPortConnector : public ConnectorBase {
     virtual void setEndian(bool little_endian) { m_littleEndian = little_endian; }
     virtual bool isLittleEndian() { return m_littleEndian; }
     /// Ours: returns true if this connector would send exactly the bytes that `other` has sent last: byte order and
-    /// marshaling type are the same, neither sets the time, and there were bytes.
+    /// marshaling type are the same, neither sets the time, there were bytes, and this connector needs them.
     bool canShareBytesOf(const OutPortConnector& other) const;
+    /// Ours: returns false if the last value was passed on unserialized, or encoded in the receiver's buffer.
+    bool hasSerialized() const { return !m_sentInPlace; }
     /// Ours: returns true if the last value was encoded directly into the receiver's buffer, and every value can be.
     bool writesInPlace() const {
         return m_sentInPlace && !m_direct && m_minInPlaceLength == 0 && m_littleEndian;

@@ -85,8 +85,13 @@ class RingBuffer : public BufferBase<DataType> {
         return store(
             std::chrono::nanoseconds(-1), [&value](DataType& slot) { copyValue(slot, value); }, overwritten);
     }
-    /// Ours: does the same with a value that is no longer needed. A long value exchanges its memory with a slot's.
+    /// Ours: does the same with a value that is no longer needed. A long value exchanges its memory with a slot's. As long
+    /// as nobody has read, only the newest long value is kept: its slot's memory is still in the processor's caches.
     BufferStatus writeTaking(DataType& value, bool& overwritten) {
+        if (isLong(value) && replace_unread(value)) {
+            overwritten = true;
+            return BufferStatus::OK;
+        }
         return store(
             std::chrono::nanoseconds(-1),
             [&value](DataType& slot) {
@@ -200,7 +205,15 @@ class RingBuffer : public BufferBase<DataType> {
         if (block_read_) not_empty_.notify_all(); // otherwise no reader waits
         return BufferStatus::OK;
     }
+    /// Returns false, without side effects, if a value was read before, or there is none to replace.
+    bool replace_unread(DataType& value) {
+        Lock lock(mutex_);
+        if (was_read_ || fill_ == 0 || !overwrite_) return false;
+        takeValue(slots_[wrapped_index(write_, -1)], value);
+        return true;
+    }
     void takeOut(DataType& value, DataType& slot) {
+        was_read_ = true;
         if (__builtin_expect(reads_once_ && isLong(slot), false)) {
             taken_by_ = takeValue(value, slot) ? &value : nullptr;
         } else {
@@ -234,6 +247,7 @@ class RingBuffer : public BufferBase<DataType> {
     std::size_t fill_ = 0;
     bool written_ = false; // since the last reset: readback has a value
     bool reads_once_ = false;
+    bool was_read_ = false; // ever
     // the variable with the only copy of the last value; NULL: the slot has it
     const DataType* taken_by_ = nullptr;
     bool overwrite_ = true;

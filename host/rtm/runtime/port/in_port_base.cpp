@@ -5,6 +5,7 @@
 #include "host/rtm/runtime/port/custom_serializer.hpp"
 #include "host/rtm/runtime/port/data_mutex.hpp"
 #include "host/rtm/runtime/port/remote_port.hpp"
+#include "host/rtm/runtime/transport/buffer/port_buffer.hpp"
 #include "host/rtm/runtime/transport/connection_profile.hpp"
 #include "host/rtm/runtime/transport/in_port_connectors.hpp"
 #include "host/rtm/runtime/transport/newest/numbered_in_port.hpp"
@@ -27,7 +28,7 @@ bool is_pull(const coil::Properties& connector_properties) {
 } // namespace
 
 InPortBase::InPortBase(const char* name, const char* data_type)
-    : PortBase(name), m_thebuffer(new CdrRingBuffer) {
+    : PortBase(name), m_thebuffer(new PortBuffer) {
     // Tools and peers read these in the port's profile; init() adds the transports of libraries.
     addProperty("port.port_type", "DataInPort");
     addProperty("dataport.data_type", data_type);

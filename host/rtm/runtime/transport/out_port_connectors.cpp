@@ -33,7 +33,7 @@ bool OutPortConnector::canShareBytesOf(const OutPortConnector& other) const {
     auto stamps = [](TimestampPolicy p) {
         return p == TimestampPolicy::on_write || p == TimestampPolicy::on_send;
     };
-    return !other.m_sentInPlace && m_littleEndian == other.m_littleEndian &&
+    return !m_direct && !other.m_sentInPlace && m_littleEndian == other.m_littleEndian &&
            m_marshaling_type == other.m_marshaling_type && !stamps(m_timestamp) && !stamps(other.m_timestamp);
 }
 

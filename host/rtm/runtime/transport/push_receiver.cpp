@@ -10,7 +10,8 @@ namespace RTC {
 PushReceiver::PushReceiver(InPortBase& port, const ConnectorInfo& info, CdrBufferBase& buffer,
                            std::shared_ptr<DirectBufferBase> direct_buffer)
     : port_(port), listeners_(*port.getListeners()), info_(info), buffer_(buffer),
-      direct_buffer_(std::move(direct_buffer)), in_place_(dynamic_cast<InPlaceBuffer*>(&buffer)),
+      direct_buffer_(std::move(direct_buffer)),
+      in_place_(direct_buffer_ ? nullptr : dynamic_cast<InPlaceBuffer*>(&buffer)),
       marshaling_type_(info.properties.getProperty("marshaling_type", "cdr")),
       stamps_(timestampPolicy(info.properties) == TimestampPolicy::on_received) {}
 

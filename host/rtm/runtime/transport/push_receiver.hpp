@@ -99,7 +99,7 @@ class PushReceiver : public std::enable_shared_from_this<PushReceiver> {
     CdrBufferBase& buffer_;
     std::shared_ptr<DirectBufferBase> direct_buffer_;
     std::shared_ptr<void> value_;   // of a direct connection with listeners: the copy that they get
-    InPlaceBuffer* const in_place_; // buffer_, when it is one
+    InPlaceBuffer* const in_place_; // buffer_, when it is one and takes the messages
     std::string marshaling_type_;
     const bool stamps_; // the time of a message is set when it comes
 

@@ -166,13 +166,14 @@ TEST_CASE("reset empties the queue") {
     CHECK(port.pop() == nullptr);
 }
 
-TEST_CASE("after a first value, a push allocates nothing, and a pop only the object it returns") {
+TEST_CASE("after the first three values of a LAST, a push allocates nothing, and a pop only the object it "
+          "returns") {
     OutputDataPort<std::vector<double>> out;
     InputDataPort<std::vector<double>> in(OPROS_LAST, 1);
     DirectLink link(in);
     out.addConnection(&link);
     const std::vector<double> value(100, 1.5);
-    out.push(value);
+    for (int i = 0; i < 3; ++i) out.push(value); // the queue's, and one for each thread
     const long before = allocations();
     for (int i = 0; i < 10; ++i) out.push(value);
     CHECK(allocations() == before);

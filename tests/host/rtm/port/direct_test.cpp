@@ -261,6 +261,22 @@ TEST_CASE("A long sequence of a direct connection is copied once, into memory th
     CHECK(ports.received.data.length() == picture_bytes - 1);
 }
 
+TEST_CASE("While only a listener uses long values, a direct connection keeps the newest and little memory") {
+    ManagerFixture fixture;
+    PortPair<RTC::TimedOctetSeq> ports(fixture, "interface_type=direct");
+    auto* received = new LookAt;
+    std::set<const CORBA::Octet*> places;
+    received->on_call = [&] { places.insert(received->seen->data.NP_data()); };
+    ports.in.addConnectorDataListener(RTC::ON_RECEIVED, received);
+    ports.sent.data.length(picture_bytes);
+    for (CORBA::Octet number = 1; number <= 20; ++number) write_picture(ports, number);
+    CHECK(places.size() == 2); // that of the listener and that of the buffer in turn
+    CHECK(read_picture(ports).data[0] == 20);
+    CHECK_FALSE(ports.in.isNew());
+    for (CORBA::Octet number = 21; number <= 24; ++number) write_picture(ports, number);
+    for (CORBA::Octet number = 21; number <= 24; ++number) CHECK(read_picture(ports).data[0] == number);
+}
+
 TEST_CASE("A direct connection that is read again gives its last long value again") {
     ManagerFixture fixture;
     PortPair<RTC::TimedOctetSeq> ports(fixture, "interface_type=direct");

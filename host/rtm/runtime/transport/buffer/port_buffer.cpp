@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/rtm/runtime/transport/buffer/port_buffer.hpp"
+#include "host/rt/crossings.hpp"
+#include "host/rt/rehearsal.hpp"
+#include <algorithm>
+#include <coil/stringutil.h>
+#include <cstring>
+#include <rtm/CopyBytes.h>
+#include <rtm/idl/BasicDataTypeSkel.h>
+
+namespace RTC {
+
+using tandem::rt::rehearsing;
+using tandem::rt::ShortLock;
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr std::size_t default_length = 8;
+constexpr std::size_t longest_rehearsed =
+    4096; // encoding more takes longer than the cache misses that it saves
+
+constexpr bool native_little_endian = __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__;
+constexpr std::size_t time_bytes = sizeof(Time), count_bytes = sizeof(std::uint32_t);
+
+/// Returns the bytes before the numbers: time, count, and padding.
+std::size_t head_bytes(std::uint32_t count, std::size_t element_bytes) {
+    return time_bytes + count_bytes + (count > 0 && element_bytes == 8 ? 4 : 0);
+}
+
+void encode_numbers(const TimedNumbers<const void>& numbers, ByteData& to) {
+    const std::size_t head = head_bytes(numbers.count, numbers.element_bytes),
+                      bytes = std::size_t{numbers.count} * numbers.element_bytes;
+    to.setDataLength(head + bytes);
+    unsigned char* const out = to.getBuffer();
+    const std::uint64_t count = numbers.count; // with the padding
+    std::memcpy(out, numbers.tm, time_bytes);
+    std::memcpy(out + time_bytes, &count, head - time_bytes);
+    copyBytes(out + head, numbers.elements, bytes);
+}
+
+/// Returns false if the value cannot be encoded.
+bool encode(const Marshal& marshal, cdrMemoryStream& stream, ByteData& to) {
+    to.isLittleEndian(true);
+    if (native_little_endian && marshal.numbers().tm != nullptr) {
+        encode_numbers(marshal.numbers(), to);
+        return true;
+    }
+    stream.rewindPtrs();
+    stream.setByteSwapFlag(true);
+    if (!marshal(stream)) return false;
+    to.writeData(static_cast<const unsigned char*>(stream.bufPtr()), stream.bufSize());
+    return true;
+}
+
+/// Copies a message with as many numbers as the variable has, as most have. Returns false, without side effects, for
+/// others.
+bool decode_numbers(const ByteData& from, const TimedNumbers<void>& to) {
+    const std::size_t head = head_bytes(to.count, to.element_bytes),
+                      bytes = std::size_t{to.count} * to.element_bytes;
+    if (to.tm == nullptr || from.getEndian() != native_little_endian || from.getDataLength() != head + bytes)
+        return false;
+    const unsigned char* const in = from.getBuffer();
+    std::uint32_t count = 0;
+    std::memcpy(&count, in + time_bytes, sizeof count);
+    if (count != to.count) return false;
+    std::memcpy(to.tm, in, time_bytes);
+    copyBytes(to.elements, in + head, bytes);
+    return true;
+}
+
+void decode(const ByteData& from, Unmarshal& reader) {
+    if (decode_numbers(from, reader.numbers())) return;
+    cdrMemoryStream stream(from.getBuffer(), from.getDataLength());
+    stream.setByteSwapFlag(from.getEndian());
+    reader(stream);
+}
+
+void read_policy(const coil::Properties& prop, const char* key, const char* default_word,
+                 bool& default_policy, bool& block) {
+    const std::string policy = coil::normalize(prop.getProperty(key));
+    if (policy.empty()) return;
+    default_policy = policy == default_word;
+    block = policy == "block";
+}
+
+} // namespace
+
+PortBuffer::PortBuffer() : ring_(std::make_unique<Ring>(default_length)) {}
+
+void PortBuffer::init(const coil::Properties& prop) {
+    const std::scoped_lock lock(write_mutex_, read_mutex_);
+    std::size_t n = 0;
+    // A length from another process must not exhaust the memory. Ignores invalid lengths.
+    if (coil::stringTo(n, prop.getProperty("length").c_str()) && n > 0 && n <= 1'000'000) set_length(n);
+    read_policy(prop, "write.full_policy", "overwrite", overwrite_, block_write_);
+    read_policy(prop, "read.empty_policy", "readback", readback_, block_read_);
+    coil::stringTo(write_timeout_, prop.getProperty("write.timeout").c_str());
+    coil::stringTo(read_timeout_, prop.getProperty("read.timeout").c_str());
+}
+
+std::size_t PortBuffer::length() const {
+    const ShortLock lock(read_mutex_);
+    return ring_->depth();
+}
+
+BufferStatus PortBuffer::length(std::size_t n) {
+    if (n == 0 || n > Ring::max_depth) return BufferStatus::NOT_SUPPORTED;
+    const std::scoped_lock lock(write_mutex_, read_mutex_);
+    set_length(n);
+    return BufferStatus::OK;
+}
+
+void PortBuffer::set_length(std::size_t n) {
+    ring_ = std::make_unique<Ring>(n);
+    has_last_ = false;
+}
+
+BufferStatus PortBuffer::reset() {
+    const std::scoped_lock lock(write_mutex_, read_mutex_);
+    while (ring_->take()) continue;
+    has_last_ = false;
+    return BufferStatus::OK;
+}
+
+/// Waits until ready() is true. The other end wakes this thread if its policy says that threads wait here; a thread that
+/// waits against the policy looks from time to time.
+template <class Ready>
+bool PortBuffer::wait(std::chrono::nanoseconds timeout, const Ready& ready) {
+    constexpr auto look = 10ms;
+    const auto deadline = std::chrono::steady_clock::now() + timeout;
+    std::unique_lock lock(wait_mutex_);
+    while (!ready()) {
+        const auto now = std::chrono::steady_clock::now();
+        if (now >= deadline) return false;
+        changed_.wait_until(lock, std::min<std::chrono::steady_clock::time_point>(deadline, now + look));
+    }
+    return true;
+}
+
+// A thread that waits has looked with the mutex held, so it has seen the change or gets the notification.
+void PortBuffer::wake() {
+    { const std::lock_guard lock(wait_mutex_); }
+    changed_.notify_all();
+}
+
+/// Returns FULL if there is no room, NOT_SUPPORTED if `encode` returns false.
+template <class Encode>
+inline BufferStatus PortBuffer::try_store(Turn& turn, const Encode& encode, bool& overwritten) {
+    const ShortLock lock(write_mutex_);
+    turn.waits = turn.timeout > 0ns || (turn.timeout < 0ns && block_write_);
+    turn.wakes = block_read_;
+    if (turn.waits && turn.timeout < 0ns) turn.timeout = write_timeout_;
+    if (ring_->is_full() && (turn.waits || !overwrite_)) return BufferStatus::FULL;
+    ByteData& next = ring_->next();
+    if (!encode(next)) return BufferStatus::NOT_SUPPORTED;
+    const unsigned char* const bytes = next.getBuffer();
+    overwritten = ring_->publish({&next, bytes, bytes + Ring::line, bytes});
+    return BufferStatus::OK;
+}
+
+template <class Encode>
+inline BufferStatus PortBuffer::store(std::chrono::nanoseconds timeout, const Encode& encode,
+                                      bool& overwritten) {
+    Turn turn{timeout};
+    overwritten = false;
+    BufferStatus status = try_store(turn, encode, overwritten);
+    if (status == BufferStatus::FULL && turn.waits) {
+        const auto stored = [&] {
+            status = try_store(turn, encode, overwritten);
+            return status != BufferStatus::FULL;
+        };
+        if (!wait(turn.timeout, stored)) return BufferStatus::TIMEOUT;
+    }
+    if (turn.wakes && status == BufferStatus::OK) wake();
+    return status;
+}
+
+BufferStatus PortBuffer::write(const ByteData& message, std::chrono::nanoseconds timeout) {
+    bool ignored = false;
+    return store(
+        timeout,
+        [&](ByteData& to) {
+            to = message;
+            return true;
+        },
+        ignored);
+}
+
+BufferStatus PortBuffer::writeReporting(const ByteData& message, bool& overwritten) {
+    return store(
+        -1ns,
+        [&](ByteData& to) {
+            to = message;
+            return true;
+        },
+        overwritten);
+}
+
+BufferStatus PortBuffer::writeInPlace(const Marshal& marshal) {
+    if (rehearsing()) {
+        rehearse_write(marshal);
+        return BufferStatus::OK;
+    }
+    bool ignored = false;
+    return store(
+        -1ns, [&](ByteData& to) { return encode(marshal, stream_, to); }, ignored);
+}
+
+void PortBuffer::rehearse_write(const Marshal& marshal) {
+    if (!write_mutex_.lock_if_owner()) return;
+    const ShortLock lock(write_mutex_, std::adopt_lock);
+    tandem::rt::note_crossings(ring_->published());
+    ring_->prefetch_for_publish();
+    // Encoding a short message here would clear a long one.
+    if (ByteData& next = ring_->next(); next.getDataLength() <= longest_rehearsed) {
+        __builtin_prefetch(next.getBuffer(), 1);
+        encode(marshal, stream_, next);
+    }
+}
+
+/// Returns EMPTY if there is no message, also if threads wait for one.
+template <class Decode>
+inline BufferStatus PortBuffer::try_take(Turn& turn, const Decode& decode) {
+    const ShortLock lock(read_mutex_);
+    turn.waits = turn.timeout > 0ns || (turn.timeout < 0ns && block_read_);
+    turn.wakes = block_write_;
+    if (turn.waits && turn.timeout < 0ns) turn.timeout = read_timeout_;
+    if (ring_->take())
+        has_last_ = true;
+    else if (turn.waits || !readback_ || !has_last_)
+        return BufferStatus::EMPTY;
+    decode(ring_->last());
+    return BufferStatus::OK;
+}
+
+template <class Decode>
+inline BufferStatus PortBuffer::take(std::chrono::nanoseconds timeout, const Decode& decode) {
+    Turn turn{timeout};
+    BufferStatus status = try_take(turn, decode);
+    if (status == BufferStatus::EMPTY && turn.waits) {
+        const auto taken = [&] { return (status = try_take(turn, decode)) == BufferStatus::OK; };
+        if (!wait(turn.timeout, taken)) return BufferStatus::TIMEOUT;
+    }
+    if (turn.wakes && status == BufferStatus::OK) wake();
+    return status;
+}
+
+BufferStatus PortBuffer::read(ByteData& message, std::chrono::nanoseconds timeout) {
+    return take(timeout, [&](const ByteData& from) { message = from; });
+}
+
+BufferStatus PortBuffer::readInPlace(ByteData&, Unmarshal& reader, bool& read_in_place) {
+    read_in_place = true;
+    if (rehearsing()) return rehearse_read(reader);
+    return take(-1ns, [&](const ByteData& from) { decode(from, reader); });
+}
+
+BufferStatus PortBuffer::rehearse_read(Unmarshal& reader) {
+    if (!read_mutex_.lock_if_owner()) return BufferStatus::EMPTY;
+    const ShortLock lock(read_mutex_, std::adopt_lock);
+    tandem::rt::note_crossings(ring_->taken());
+    ring_->prefetch_for_take();
+    if (!has_last_ || ring_->last().getDataLength() > longest_rehearsed) return BufferStatus::EMPTY;
+    decode(ring_->last(), reader);
+    return BufferStatus::OK;
+}
+
+std::size_t PortBuffer::readable() const {
+    const ShortLock lock(read_mutex_);
+    return ring_->empty() ? 0
+                          : std::max<std::size_t>(ring_->size(), 1); // the cell is filled before the count
+}
+
+std::size_t PortBuffer::writable() const {
+    const ShortLock lock(read_mutex_);
+    return ring_->depth() - ring_->size();
+}
+
+ByteData* PortBuffer::wptr(long n) {
+    const std::scoped_lock lock(write_mutex_, read_mutex_);
+    return &ring_->at(ring_->writers(n));
+}
+
+BufferStatus PortBuffer::advanceWptr(long n, bool /*unlock_enable*/) {
+    {
+        const std::scoped_lock lock(write_mutex_, read_mutex_);
+        const long filled = static_cast<long>(ring_->size()), depth = static_cast<long>(ring_->depth());
+        if (n > depth - filled || n < -filled) return BufferStatus::PRECONDITION_NOT_MET;
+        for (; n > 0; --n) ring_->publish();
+        for (; n < 0; ++n) ring_->unpublish();
+    }
+    wake();
+    return BufferStatus::OK;
+}
+
+BufferStatus PortBuffer::put(const ByteData& message) {
+    const ShortLock lock(write_mutex_);
+    ring_->next() = message;
+    return BufferStatus::OK;
+}
+
+ByteData* PortBuffer::rptr(long n) {
+    const std::scoped_lock lock(write_mutex_, read_mutex_);
+    return &ring_->at(ring_->readers(n));
+}
+
+BufferStatus PortBuffer::advanceRptr(long n, bool /*unlock_enable*/) {
+    {
+        const std::scoped_lock lock(write_mutex_, read_mutex_);
+        const long filled = static_cast<long>(ring_->size()), depth = static_cast<long>(ring_->depth());
+        if (n > filled || n < filled - depth) return BufferStatus::PRECONDITION_NOT_MET;
+        has_last_ = has_last_ || n > 0;
+        for (; n > 0; --n) ring_->take();
+        for (; n < 0; ++n) ring_->untake();
+    }
+    wake();
+    return BufferStatus::OK;
+}
+
+BufferStatus PortBuffer::get(ByteData& message) {
+    const std::scoped_lock lock(write_mutex_, read_mutex_);
+    message = ring_->at(ring_->readers(0));
+    return BufferStatus::OK;
+}
+
+ByteData& PortBuffer::get() { return *rptr(0); }
+
+} // namespace RTC

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+// Values between two threads of a host: they go through a ring, without a lock that both threads take.
+#include "host/rt/rehearsal.hpp"
+#include "tests/host/opros/runtime/archive_source.hpp"
+#include "tests/support/allocations.hpp"
+#include "tests/support/membarrier.hpp"
+
+#include <InputDataPort.h>
+#include <OutputDataPort.h>
+
+#include <atomic>
+#include <catch2/catch.hpp>
+#include <memory>
+#include <thread>
+#include <vector>
+
+namespace {
+
+using Values = std::vector<double>;
+
+template <class T>
+std::vector<T> drain(InputDataPort<T>& port) {
+    std::vector<T> values;
+    while (const std::unique_ptr<opros_any> any{port.pop()}) values.push_back(port.getContent(*any));
+    return values;
+}
+
+/// As the engine makes it between two components.
+struct LocalLink : IDataPortLink, tandem::rt::Rehearsable {
+    explicit LocalLink(InputDataPortInterface& to) : destination(to) {}
+    InputDataPortInterface& destination;
+    ReturnType push(opros_any& data) override { return destination.push(data); }
+    bool can_rehearse() const override { return destination.canRehearsePush(); }
+    ReturnType setSource(DataPort*) override { return 0; }
+    ReturnType addDestination(DataPort*) override { return 0; }
+    ReturnType addDestination(RemoteDataPort*) override { return 0; }
+    ReturnType removeDestination(DataPort*) override { return 0; }
+    ReturnType removeDestination(RemoteDataPort*) override { return 0; }
+    ReturnType clearDestination() override { return 0; }
+    ReturnType clearSource() override { return 0; }
+};
+
+struct CountingListener : DataPortListener {
+    void arrived() override { ++count; }
+    int count = 0;
+};
+
+/// A component's port that does something of its own with what is pushed.
+struct OwnPort : InputDataPort<Values> {
+    ReturnType push(opros_any& data) override {
+        ++pushes;
+        return InputDataPort<Values>::push(data);
+    }
+    int pushes = 0;
+};
+
+/// Counts its copies.
+struct Counted {
+    Counted() = default;
+    Counted(const Counted&) { ++copies; }
+    Counted& operator=(const Counted&) {
+        ++copies;
+        return *this;
+    }
+    static inline int copies = 0;
+};
+
+/// Never has a value.
+struct EmptySource : DataPortSource {
+    bool take(opros_any*) override { return false; }
+};
+
+} // namespace
+
+TEST_CASE("a rehearsal of a push stores nothing, notifies nobody and calls no code of the component") {
+    OutputDataPort<Values> out;
+    InputDataPort<Values> in;
+    OwnPort own;
+    LocalLink to_in(in), to_own(own);
+    CountingListener listener;
+    in.setListener(&listener);
+    out.addConnection(&to_in);
+    out.addConnection(&to_own);
+    const Values value{1, 2, 3};
+    for (int i = 0; i < 100; ++i) out.push(value);
+    REQUIRE(drain(in).size() == 15);
+    drain(own);
+    out.rehearse(); // allocates its sample
+    const long before = allocations();
+    for (int i = 0; i < 20; ++i) out.rehearse();
+    CHECK(allocations() == before);
+    CHECK(in.getSize() == 0);
+    CHECK(listener.count == 100);
+    CHECK(own.pushes == 100);
+    CHECK(own.getSize() == 0);
+    CHECK_FALSE(own.canRehearsePush());
+    out.push(value);
+    CHECK(allocations() == before);
+    CHECK(drain(in) == std::vector<Values>{value});
+}
+
+TEST_CASE("a rehearsal of a pop takes nothing from a ring") {
+    InputDataPort<Values> in;
+    Values value{1, 2};
+    for (int i = 0; i < 40; ++i) {
+        in.push(value);
+        delete in.pop();
+    }
+    in.push(value);
+    in.rehearse();
+    in.rehearse();
+    CHECK(in.getSize() == 1);
+    CHECK(drain(in) == std::vector<Values>{value});
+    for (int i = 0; i < 10'000; ++i) CHECK(in.pop() == nullptr); // rehearses now and then
+}
+
+TEST_CASE("a push to several readers copies the value once for each, and reading copies it not at all") {
+    constexpr std::size_t readers = 16;
+    OutputDataPort<Counted> out;
+    std::vector<std::unique_ptr<InputDataPort<Counted>>> ports;
+    std::vector<std::unique_ptr<LocalLink>> links;
+    for (std::size_t i = 0; i < readers; ++i) {
+        ports.push_back(std::make_unique<InputDataPort<Counted>>(OPROS_FIFO, 2));
+        links.push_back(std::make_unique<LocalLink>(*ports.back()));
+        out.addConnection(links.back().get());
+    }
+    const Counted value;
+    for (int i = 0; i < 10; ++i) out.push(value); // each slot gets its object
+    Counted::copies = 0;
+    out.push(value);
+    CHECK(Counted::copies == readers);
+    for (auto& port : ports) delete port->pop();
+    CHECK(Counted::copies == readers);
+}
+
+TEST_CASE("a peeked value of a FIFO stays the next one until it is too old") {
+    InputDataPort<int> port(OPROS_FIFO, 2);
+    int value = 1;
+    port.push(value);
+    const auto peeked = [&] {
+        const std::unique_ptr<opros_any> any(port.peek());
+        return any ? port.getContent(*any) : 0;
+    };
+    CHECK(peeked() == 1);
+    CHECK(port.getSize() == 1);
+    port.push(value = 2);
+    CHECK(peeked() == 1);
+    CHECK(port.getSize() == 2);
+    port.push(value = 3);
+    CHECK(port.getSize() == 2);
+    CHECK(peeked() == 2);
+    CHECK(drain(port) == std::vector<int>{2, 3});
+}
+
+TEST_CASE("values that wait stay in order when a port gets a source, loses it, or gets another queue") {
+    InputDataPort<int> port;
+    EmptySource source;
+    int value = 0;
+    for (int i = 1; i <= 3; ++i) port.push(value = i);
+    REQUIRE(port.addSource(&source) == OPROS_SUCCESS);
+    port.push(value = 4);
+    CHECK(port.getSize() == 4);
+    port.removeSource(&source);
+    port.push(value = 5);
+    CHECK(drain(port) == std::vector<int>{1, 2, 3, 4, 5});
+    port.push(value);
+    CHECK(port.setQueue(OPROS_LAST, 1) == OPROS_SUCCESS);
+    CHECK(port.getSize() == 0);
+    for (int i = 6; i <= 8; ++i) port.push(value = i);
+    CHECK(drain(port) == std::vector<int>{8});
+}
+
+TEST_CASE("values of one thread arrive whole and in order while sources come and go") {
+    InputDataPort<Values> port(OPROS_FIFO, 4);
+    constexpr int last = 20'000;
+    std::atomic<bool> done{false};
+    std::thread pusher([&] {
+        Values value(8);
+        for (int i = 1; i <= last; ++i) {
+            value.assign(8, i);
+            port.push(value);
+        }
+    });
+    std::thread changer([&] {
+        while (!done) {
+            EmptySource source;
+            port.addSource(&source);
+            std::this_thread::yield();
+            port.removeSource(&source);
+        }
+    });
+    double newest = 0;
+    int faults = 0;
+    while (newest != last)
+        for (const Values& value : drain(port)) {
+            if (value.size() != 8 || value.front() != value.back() || value.front() <= newest) ++faults;
+            newest = value.front();
+        }
+    done = true;
+    pusher.join();
+    changer.join();
+    CHECK(faults == 0);
+}
