@@ -52,7 +52,8 @@ class Reader {
 
     std::vector<ProjectTarget> read() {
         std::vector<ProjectTarget> targets;
-        for (const auto& object : member(load(index_), "objects"))
+        const Json index = load(index_);
+        for (const auto& object : member(index, "objects"))
             if (object.value("kind", "") == "codemodel")
                 load_targets(load(reply_ / object.value("jsonFile", "")));
         for (const auto& id : order_) {
