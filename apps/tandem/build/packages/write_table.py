@@ -111,7 +111,7 @@ class Index:
         keep = lambda package: self.users[package] > 0 or self.modules[package] or package in PREFERRED
         self.headers = [(path, package) for path, package in self.headers if keep(package)]
         self.libraries = [(name, package) for name, package in self.libraries
-                          if self.users[package] > 10 or package in PREFERRED or package.startswith("libboost")]
+                          if self.users[package] > 2 or package in PREFERRED or package.startswith("libboost")]
 
     def module(self, package, name):
         """Returns the pkg-config module for a header of the package; "-" if it is unknown."""
