@@ -39,7 +39,9 @@ class Monitor {
           server_(context, options.bind, options.port, service),
           channels_(
               context, [this]() -> const State& { return state_; }, &stop),
-          samples_(context, &stop), timer_(context) {
+          samples_(
+              context, [this]() -> const State& { return state_; }, &stop),
+          timer_(context) {
         service.channels = &channels_;
         service.samples = &samples_;
         service.session_id = std::to_string(std::time(nullptr));

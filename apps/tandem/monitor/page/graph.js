@@ -8,7 +8,7 @@ import {topologyOf} from './topology.js';
 /** Seconds without a message until an edge becomes grey. */
 const stale = 2;
 const letter = 7.2, boldLetter = 8.6, row = 24, dot = 8;
-const layerGap = 30, widestGap = 420;
+const layerGap = 30, widestGap = 420, mostFitted = 40; // edges: a layout of more takes long
 const sideSigns = {alive: '✓', stopped: '❚❚', dead: '✕', gone: '✕', absent: '…'};
 const kindSigns = {provided: '◉ ', required: '◡ ', in: '', out: ''};
 
@@ -137,7 +137,7 @@ export class Graph {
   async fit(topology) {
     this.width = this.parent.clientWidth;
     const narrow = await this.elk.layout(elkGraph(topology, layerGap)), missing = this.width - narrow.width - 4;
-    if (missing < 20) return narrow;
+    if (missing < 20 || topology.edges.length > mostFitted) return narrow;
     const wide = await this.elk.layout(elkGraph(topology, layerGap + missing)), slope = (wide.width - narrow.width) / missing;
     return slope > 0 ? this.elk.layout(elkGraph(topology, Math.min(widestGap, layerGap + missing / slope))) : narrow;
   }

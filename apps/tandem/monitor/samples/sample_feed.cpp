@@ -72,23 +72,36 @@ void SampleFeed::add(SampleClient& client) {
     if (!looks_) look();
 }
 
+/// Only ports of links that the monitor shows.
 void SampleFeed::update_ports() {
+    std::set<std::string> shown;
+    for (const LinkState& link : state_().links)
+        if (link.readable) shown.insert(link.name);
     std::set<SamplePort> wanted;
-    for (const SampleClient* client : clients_) wanted.insert(client->ports().begin(), client->ports().end());
+    for (const SampleClient* client : clients_)
+        for (const SamplePort& port : client->ports())
+            if (shown.count(port.link) != 0) wanted.insert(port);
     std::erase_if(followed_, [&](const auto& followed) { return wanted.count(followed.first) == 0; });
     for (const SamplePort& port : wanted)
         if (followed_.size() < max_ports) followed_.try_emplace(port, port);
+}
+
+/// Each look begins with another port, so that none keeps the others from being read.
+void SampleFeed::read_ports() {
+    auto begin = followed_.upper_bound(first_);
+    if (begin == followed_.end()) begin = followed_.begin();
+    if (begin == followed_.end()) return;
+    first_ = begin->first;
+    Round round(stop_, look_bounds);
+    for (auto it = begin; it != followed_.end(); ++it) poll(it->first, it->second, round);
+    for (auto it = followed_.begin(); it != begin; ++it) poll(it->first, it->second, round);
 }
 
 void SampleFeed::look() {
     looks_ = !clients_.empty();
     update_ports();
     if (!looks_) return;
-    Round round(stop_, look_bounds);
-    for (auto it = followed_.lower_bound(first_); it != followed_.end(); ++it)
-        poll(it->first, it->second, round);
-    for (auto it = followed_.begin(); it != followed_.lower_bound(first_); ++it)
-        poll(it->first, it->second, round);
+    read_ports();
     const auto clients = clients_; // a copy, because a client may leave meanwhile
     const std::uint64_t now_ms = command::wall_clock_ns() / 1'000'000;
     for (SampleClient* client : clients) {
@@ -118,7 +131,6 @@ void SampleFeed::poll(const SamplePort& port, Followed& followed, Round& round) 
             {}, command::LinkFollower::Rings::likely, [&] { return round.bytes_left(); });
     } catch (const shm::Error&) { // the link was removed meanwhile
     }
-    if (round.bytes_left() == 0) first_ = port;
 }
 
 void SampleFeed::add_sample(const SamplePort& port, Followed& followed, const command::FollowedPort& of,

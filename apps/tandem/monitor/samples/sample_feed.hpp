@@ -2,6 +2,7 @@
 #pragma once
 #include "apps/tandem/monitor/round.hpp"
 #include "apps/tandem/monitor/samples/message_numbers.hpp"
+#include "apps/tandem/monitor/state.hpp"
 #include "apps/tandem/observe/link_follower.hpp"
 
 #include <boost/asio/io_context.hpp>
@@ -10,9 +11,11 @@
 #include <atomic>
 #include <compare>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tandem::monitor {
@@ -55,9 +58,10 @@ class SampleFeed {
   public:
     static constexpr std::size_t max_ports = 64; ///< of all clients; further ports are not followed
 
-    /// `stop`: ends a look early; null: nothing does.
-    explicit SampleFeed(boost::asio::io_context& context, const std::atomic<bool>* stop = nullptr)
-        : timer_(context), stop_(stop) {}
+    /// `state`: returns the newest State, which contains the links. `stop`: ends a look early; null: nothing does.
+    SampleFeed(boost::asio::io_context& context, std::function<const State&()> state,
+               const std::atomic<bool>* stop = nullptr)
+        : timer_(context), stop_(stop), state_(std::move(state)) {}
 
     void add(SampleClient& client);
     void remove(SampleClient& client) { clients_.erase(&client); }
@@ -74,6 +78,7 @@ class SampleFeed {
 
     void look();
     void update_ports();
+    void read_ports();
     void poll(const SamplePort& port, Followed& followed, Round& round);
     void add_sample(const SamplePort& port, Followed& followed, const command::FollowedPort& of,
                     const shm::FollowedRecord& record);
@@ -81,9 +86,10 @@ class SampleFeed {
     boost::asio::steady_timer timer_;
     const std::atomic<bool>* stop_;
     bool looks_ = false;
+    std::function<const State&()> state_;
     std::set<SampleClient*> clients_;
     std::map<SamplePort, Followed> followed_;
-    SamplePort first_; ///< port that the next look begins with
+    SamplePort first_; ///< port that the last look began with
 };
 
 } // namespace tandem::monitor

@@ -161,6 +161,22 @@ TEST_CASE("hostile requests for samples are refused, and the next one is answere
     CHECK(monitor.runs());
 }
 
+TEST_CASE("ports of links that the monitor does not show are not followed") {
+    const Pair pair, other;
+    const auto rings = add_ports(*pair.first, {"speed"}), others = add_ports(*other.first, {"speed"});
+    RingWriter writer(rings[0]), hidden(others[0]);
+    const RunningMonitor monitor(pair.link.name);
+    Plotter page(monitor, pair.link.name, writer);
+    Json both = follow(pair.link.name, {"speed"});
+    both["follow"].push_back({{"link", other.link.name}, {"owner", "first"}, {"port", "speed"}});
+    page.send(both.dump());
+    for (int i = 0; i < 20; ++i) {
+        hidden.write(bytes_of_number(1), now_ns());
+        writer.write(bytes_of_number(0), now_ns());
+        for (const auto& sample : page.collect(1)) CHECK(sample[2] == 0);
+    }
+}
+
 TEST_CASE("samples are only for the monitor's own page") {
     const Pair pair;
     const RunningMonitor monitor(pair.link.name);
