@@ -8,6 +8,7 @@
 #include "host/rtm/runtime/configuration/format_name.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
 #include <cstdlib>
+#include <rtm/ManagerConfig.h>
 #include <sys/utsname.h>
 #include <unistd.h>
 
@@ -103,20 +104,39 @@ void warn_about_naming_policy(const coil::Properties& config, SettingOrigins& or
                                           ": names are made unique within this process only");
 }
 
+// Returns the file that was read; "": none.
+std::string read_settings(const CommandLine& line, coil::Properties& config, SettingOrigins& origins) {
+    for (const auto& [key, value] : default_settings) config.setDefault(key, value);
+    std::string file = line.conf_file.empty() ? find_default_conf_file() : line.conf_file;
+    if (line.conf_file_may_be_missing && !std::filesystem::exists(file)) file.clear();
+    if (!file.empty()) {
+        read_conf_file(file, config, &origins);
+        config.setProperty("config_file", file);
+    }
+    config << line.settings;
+    for (const auto& [key, origin] : line.origins) origins[key] = origin;
+    return file;
+}
+
 } // namespace
 
+ManagerConfig::ManagerConfig(int argc, char** argv) { init(argc, argv); }
+
+ManagerConfig::~ManagerConfig() = default;
+
+void ManagerConfig::init(int argc, char** argv) { m_arguments.assign(argv, argv + argc); }
+
+void ManagerConfig::configure(coil::Properties& prop) {
+    std::vector<char*> arguments;
+    for (auto& argument : m_arguments) arguments.push_back(argument.data());
+    SettingOrigins ignored;
+    read_settings(parse_command_line(static_cast<int>(arguments.size()), arguments.data()), prop, ignored);
+    describe_system(prop);
+}
+
 void configure_process(Manager::Impl& impl, int argc, char** argv) {
-    for (const auto& [key, value] : default_settings) impl.config.setDefault(key, value);
-    CommandLine line = parse_command_line(argc, argv);
-    const std::string file = line.conf_file.empty() ? find_default_conf_file() : line.conf_file;
     SettingOrigins origins;
-    if (!file.empty() && !(line.conf_file_may_be_missing && !std::filesystem::exists(file))) {
-        read_conf_file(file, impl.config, &origins);
-        impl.conf_file = file;
-        impl.config.setProperty("config_file", file);
-    }
-    impl.config << line.settings;
-    for (const auto& [key, origin] : line.origins) origins[key] = origin;
+    impl.conf_file = read_settings(parse_command_line(argc, argv), impl.config, origins);
     // Errors are thrown before the log is open; warnings wait for it.
     const auto warnings = check_and_normalize_settings(impl.config, origins);
     describe_system(impl.config);
