@@ -2,7 +2,7 @@
 #pragma once
 
 #include "apps/tandem/run/run_folder.hpp"
-#include "host/rt/step_client.hpp"
+#include "host/rt/lock_step/step_client.hpp"
 
 #include <chrono>
 #include <cstdint>

@@ -9,7 +9,7 @@
 #include "apps/wheelchair/run/step_recording.hpp"
 #include "apps/wheelchair/run/topology.hpp"
 #include "apps/wheelchair/run/trace_follower.hpp"
-#include "host/rt/step_client.hpp"
+#include "host/rt/lock_step/step_client.hpp"
 #include "host/text/printable.hpp"
 #include "plugins/wheelchair/core/body/clock.hpp"
 #include "shm/segment.hpp"

@@ -6,7 +6,7 @@
 #include "host/opros/engine/execute/component_host.hpp"
 #include "host/opros/engine/execute/executor.hpp"
 #include "host/opros/engine/late_start.hpp"
-#include "host/rt/step_server.hpp"
+#include "host/rt/lock_step/step_server.hpp"
 
 #include <chrono>
 #include <filesystem>
@@ -26,7 +26,7 @@ struct ApplicationOptions {
     ExecutorOptions executors;
     std::size_t task_queue_capacity =
         1024; ///< events and non-blocking calls that may wait for each component
-    /// If not empty, there are no executor threads: this socket steps the components (host/rt/step_server.hpp).
+    /// If not empty, there are no executor threads: this socket steps the components (host/rt/lock_step/step_server.hpp).
     std::string lockstep_socket;
     /// The node whose part of the application runs here; empty: the profile's choice (node_part()).
     std::string node;

@@ -11,7 +11,7 @@
 #include "host/process/ready_line.hpp"
 #include "host/process/start_thread.hpp"
 #include "host/process/step_timer.hpp"
-#include "host/rt/step_server.hpp"
+#include "host/rt/lock_step/step_server.hpp"
 #include "host/rtm/runtime/configuration/default_plugin_dirs.hpp"
 #include "host/rtm/runtime/logging/logger.hpp"
 #include "host/rtm/runtime/manager/manager_options.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/rt/step_client.hpp"
-#include "host/rt/step_server.hpp"
+#include "host/rt/lock_step/step_client.hpp"
+#include "host/rt/lock_step/step_server.hpp"
 
 #include <atomic>
 #include <catch2/catch.hpp>

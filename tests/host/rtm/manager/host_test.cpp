@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // rtm_host as a program: rtc.conf, standard output and error, signals, exit codes.
-#include "host/rt/step_client.hpp"
+#include "host/rt/lock_step/step_client.hpp"
 #include "tests/host/rtm/host_process.hpp"
 #include <catch2/catch.hpp>
 #include <filesystem>

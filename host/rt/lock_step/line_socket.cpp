@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/rt/line_socket.hpp"
+#include "host/rt/lock_step/line_socket.hpp"
 
 #include <cerrno>
 #include <cstring>

@@ -4,7 +4,7 @@
 // its reply is a line `ok` or `error TEXT`.
 #pragma once
 
-#include "host/rt/line_socket.hpp"
+#include "host/rt/lock_step/line_socket.hpp"
 
 #include <functional>
 #include <list>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/rt/step_client.hpp"
+#include "host/rt/lock_step/step_client.hpp"
 
 #include <cerrno>
 #include <cstring>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/rt/step_server.hpp"
+#include "host/rt/lock_step/step_server.hpp"
 
 #include "host/process/start_thread.hpp"
 #include "host/rt/thread.hpp"

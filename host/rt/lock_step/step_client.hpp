@@ -2,7 +2,7 @@
 // Client of the lock-step protocol (step_server.hpp).
 #pragma once
 
-#include "host/rt/line_socket.hpp"
+#include "host/rt/lock_step/line_socket.hpp"
 
 #include <chrono>
 #include <string>
