@@ -7,6 +7,12 @@ set -euo pipefail
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 target=/var/tmp/tandem-arm64
 [ "$(id -u)" -eq 0 ] || { echo "tests/arm64.sh: must make a root folder; run it as root or with sudo" >&2; exit 1; }
+# Other users may write to /var/tmp: what is run as root must come from a folder that root has made.
+mkdir -p -m 755 "$target"
+if [ -L "$target" ] || [ ! -O "$target" ]; then
+    echo "tests/arm64.sh: $target belongs to another user; remove it" >&2
+    exit 1
+fi
 command -v debootstrap >/dev/null || { echo "tests/arm64.sh: debootstrap not found; apt install debootstrap" >&2; exit 1; }
 
 if [ ! -e "$target/ready" ]; then

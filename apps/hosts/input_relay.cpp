@@ -21,9 +21,9 @@ namespace {
 }
 
 // Of the program that has the other end of a terminal.
-bool is_echoing(const process::FileDescriptor& terminal) {
+bool is_echoing(int terminal) {
     termios settings{};
-    return tcgetattr(terminal.get(), &settings) == 0 && (settings.c_lflag & ECHO) != 0;
+    return tcgetattr(terminal, &settings) == 0 && (settings.c_lflag & ECHO) != 0;
 }
 
 } // namespace
@@ -40,7 +40,7 @@ InputRelay::Input InputRelay::add_receiver() {
     if (pipe2(ends.data(), O_CLOEXEC) != 0) fail("pipe");
     process::FileDescriptor reader(ends[0]), writer(ends[1]);
     fcntl(writer.get(), F_SETFL, O_NONBLOCK);
-    if (source_ >= 0) receivers_.push_back(std::move(writer));
+    if (source_ >= 0) receivers_.push_back({std::move(writer)});
     return {std::move(reader)};
 }
 
@@ -55,7 +55,7 @@ InputRelay::Input InputRelay::add_terminal() {
     const winsize size = terminal_->size();
     ioctl(hosts.get(), TIOCSWINSZ, &size);
     fcntl(ours.get(), F_SETFL, O_NONBLOCK);
-    if (source_ >= 0) receivers_.push_back(std::move(ours));
+    if (source_ >= 0) receivers_.push_back({std::move(ours)});
     return {std::move(hosts), name.data()};
 }
 
@@ -63,7 +63,8 @@ void InputRelay::add_events(std::vector<pollfd>& events) {
     if (source_ < 0) return;
     if (!terminal_) return events.push_back({source_, POLLIN, 0});
     if (terminal_->in_foreground()) events.push_back({source_, POLLIN, 0});
-    for (const auto& receiver : receivers_) events.push_back({receiver.get(), POLLIN, 0});
+    for (const auto& receiver : receivers_)
+        if (!receiver.is_closed) events.push_back({receiver.descriptor.get(), POLLIN, 0});
 }
 
 void InputRelay::forward() {
@@ -80,26 +81,33 @@ void InputRelay::forward() {
 }
 
 // Several children may echo a key. It is shown once, and not at all while one of them reads keys without an echo. What
-// such a child writes to its terminal is no echo.
+// such a child writes to its terminal is no echo. A child that has closed its terminal is still the leader of its session:
+// if this end were closed too, the kernel would end the child with SIGHUP.
 void InputRelay::update_terminals() {
     const winsize size = terminal_->size();
-    const bool all_echo = std::all_of(receivers_.begin(), receivers_.end(), is_echoing);
+    const bool all_echo = std::all_of(receivers_.begin(), receivers_.end(), [](const Receiver& receiver) {
+        return receiver.is_closed || is_echoing(receiver.descriptor.get());
+    });
     bool is_first = true;
-    std::erase_if(receivers_, [&](const process::FileDescriptor& receiver) {
-        ioctl(receiver.get(), TIOCSWINSZ, &size);
+    for (Receiver& receiver : receivers_) {
+        const int terminal = receiver.descriptor.get();
+        ioctl(terminal, TIOCSWINSZ, &size);
         std::array<char, 4096> text{};
-        const auto length = read(receiver.get(), text.data(), text.size());
-        if (length < 0) return errno == EIO; // the child has ended
-        if (all_echo ? is_first : !is_echoing(receiver))
-            terminal_->show({text.data(), static_cast<std::size_t>(length)});
-        is_first = false;
-        return false;
+        const auto length = read(terminal, text.data(), text.size());
+        receiver.is_closed = length < 0 && errno == EIO;
+        if (receiver.is_closed) continue;
+        const bool is_shown = all_echo ? is_first : !is_echoing(terminal);
+        is_first = false; // also without text now: its echo comes later than that of another
+        if (length > 0 && is_shown) terminal_->show({text.data(), static_cast<std::size_t>(length)});
+    }
+    std::erase_if(receivers_, [](const Receiver& receiver) {
+        return receiver.is_closed && tcgetsid(receiver.descriptor.get()) < 0; // the child has ended
     });
 }
 
 void InputRelay::send(const char* text, std::size_t size) {
-    std::erase_if(receivers_, [&](const process::FileDescriptor& receiver) {
-        return write(receiver.get(), text, size) < 0 && (errno == EPIPE || errno == EIO);
+    std::erase_if(receivers_, [&](const Receiver& receiver) {
+        return write(receiver.descriptor.get(), text, size) < 0 && errno == EPIPE;
     });
 }
 

@@ -37,13 +37,18 @@ class InputRelay {
     void end();
 
   private:
+    /// This program's end of a pipe or terminal.
+    struct Receiver {
+        process::FileDescriptor descriptor;
+        bool is_closed = false; ///< the child has no descriptor of its terminal now
+    };
     Input add_terminal();
     void update_terminals();
     void send(const char* text, std::size_t size);
 
     int source_;                             ///< -1 after its end
     std::unique_ptr<UserTerminal> terminal_; ///< may be null: the source is none
-    std::vector<process::FileDescriptor> receivers_;
+    std::vector<Receiver> receivers_;
 };
 
 } // namespace tandem::hosts

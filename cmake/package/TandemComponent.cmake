@@ -2,8 +2,9 @@
 # What tandem_add_opros_component() and tandem_add_rtm_component() have in common.
 # tandem_component_libraries(TARGET [PKG_CONFIG module ...] [PKG_CONFIG_IF_FOUND module ...] [FORWARDS dir]
 #                            [LIBRARIES_IF_FOUND name ...] [LIBRARY_DIRS dir ...])
-# Modules of pkg-config whose headers and libraries the plugin uses; libraries by name, also in the given folders; headers to be found where nothing else has one of
-# that name. With opencv4, the headers of OpenCV 1 and 2 are found, which include those that OpenCV 4 has in their place.
+# Modules of pkg-config whose headers and libraries the plugin uses; libraries by name, also in the given folders; headers to be
+# found where nothing else has one of that name. With opencv4, the headers of OpenCV 1 and 2 are found, which include those that
+# OpenCV 4 has in their place.
 
 # Behind the folders of the system: a header in `dir` must not hide another one.
 function(tandem_include_last name dir)

@@ -72,6 +72,13 @@ void read_header_fields(const ReadOnlySnapshot& file, ObservedSegment& view) {
         return set_unreadable(view, Readability::other_layout,
                               "layout version " + std::to_string(view.layout_version) +
                                   ", this program reads " + std::to_string(layout::layout_version));
+    const auto line = copy.get<std::uint32_t>(offsetof(SegmentHeader, line_bytes)),
+               page = copy.get<std::uint32_t>(offsetof(SegmentHeader, page_bytes));
+    if (line != layout::line || page != layout::page)
+        return set_unreadable(view, Readability::other_layout,
+                              "lines and pages of " + std::to_string(line) + " and " + std::to_string(page) +
+                                  " bytes, this program reads " + std::to_string(layout::line) + " and " +
+                                  std::to_string(layout::page));
     view.contract = word(offsetof(SegmentHeader, contract));
     view.created_ns = word(offsetof(SegmentHeader, created_ns));
     view.superseded_by = word(offsetof(SegmentHeader, superseded_by));

@@ -72,7 +72,8 @@ bool proc_shows_this_namespace() {
 
 ProcessIdentity identify_this_process() {
     const auto pid = static_cast<std::uint32_t>(getpid());
-    const auto status = read_status(pid);
+    // Without a /proc of this namespace, another process may have this id there.
+    const auto status = proc_shows_this_namespace() ? read_status(pid) : std::nullopt;
     return {pid, inode_of("/proc/self/ns/pid"), inode_of("/proc/self/ns/time"),
             status ? status->start_ticks : 0};
 }

@@ -195,7 +195,9 @@ void check_layout(const layout::SegmentHeader& header, const std::string& path) 
         throw Error(path + ": has " + theirs + ", this process has " + ours +
                     "; use one build of Tandem on both sides");
     };
-    if (header.magic == __builtin_bswap64(layout::magic)) refuse("the other byte order", "its own");
+    if (header.magic == __builtin_bswap64(layout::magic))
+        throw Error(path +
+                    ": has the byte order of another processor; use one build of Tandem on both sides");
     if (header.magic != layout::magic)
         throw Error(path + ": is not a Tandem segment; remove it or choose another link name");
     if (header.layout_version != layout::layout_version)

@@ -47,6 +47,8 @@ class Stepped {
   private:
     void step(unsigned k) {
         waitpid(pid_, &status_, 0); // its SIGSTOP
+        ptrace(PTRACE_SETOPTIONS, pid_, nullptr,
+               PTRACE_O_TRACESYSGOOD); // without it, stops have no information
         for (unsigned stop = 0; WIFSTOPPED(status_); ++stop) {
             if (stop != 0) {
                 __ptrace_syscall_info call{};

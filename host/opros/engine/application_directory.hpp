@@ -44,10 +44,14 @@ class ApplicationDirectory final : public ComponentDirectory {
     void set_profile_connections(std::vector<ConnectionProfile> connections) {
         profile_connections_ = std::move(connections);
     }
-    /// Ends all connections that components have requested. [main-thread]
+    /// Ends all connections that components have requested. Waits for the calls under way, during which the directory knows
+    /// these connections no more.
     void disconnect_all() {
-        connections_.clear();
-        ended_.clear();
+        decltype(ended_) ended;
+        decltype(connections_) connections;
+        const std::lock_guard lock(connections_mutex_); // released first
+        ended.swap(ended_);
+        connections.swap(connections_);
     }
     /// Leaks the connections, for a thread that does not return.
     void release_connections() {

@@ -145,9 +145,8 @@ bool Conversion::take_first(const ConversionStep& step, std::uint32_t& count, co
 bool Conversion::run_refused(const ConversionStep& step, CdrReader& in) {
     const auto judge = [&](bool found, std::string_view value) {
         if (found == step.unless) return true;
-        const std::string why = step.unless
-                                    ? fmt::format("expected is one of: {}", fmt::join(step.words, ", "))
-                                    : "which is refused";
+        const std::string why =
+            step.unless ? fmt::format("expected one of {}", fmt::join(step.words, ", ")) : "which is refused";
         return fail(step, fmt::format("is '{}', {}", value.substr(0, 40), why));
     };
     if (step.from.kind != Kind::string) {

@@ -51,8 +51,16 @@ inline void wait_for_line() {
     print_line("line " + line + ", " + std::to_string(size.ws_col) + " columns");
 }
 
+/// Closes its input, and counts its cycles from then on.
+inline void close_input() {
+    static int cycles = 0;
+    if (cycles++ == 0) close(STDIN_FILENO);
+    print_line("cycle " + std::to_string(cycles) + ".");
+}
+
 inline void read_keys(const std::string& how) {
     if (how == "wait_for_key") wait_for_key();
     if (how == "look_for_key") look_for_key();
     if (how == "wait_for_line") wait_for_line();
+    if (how == "close_input") close_input();
 }

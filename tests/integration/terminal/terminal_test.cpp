@@ -171,6 +171,14 @@ TEST_CASE("both hosts get each line of the terminal, which is shown once") {
     CHECK(terminal.says("code 0-"));
 }
 
+TEST_CASE("a component that closes its input does not end its host") {
+    Terminal terminal(GENERATE(In::opros, In::rtm), "close_input");
+    terminal.run();
+    CHECK(terminal.says("| cycle 100.\r\n")); // a second later
+    terminal.type("\x03");
+    CHECK(terminal.says("code 0-"));
+}
+
 TEST_CASE("the settings of the terminal are restored when a host or tandem run is ended by a signal") {
     Terminal terminal(In::opros, "wait_for_key");
     terminal.run();

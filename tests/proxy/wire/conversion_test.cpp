@@ -325,7 +325,7 @@ TEST_CASE("a message is refused for a word in its text or for one of its numbers
     const char* only = "refuse width unless 3 4; cells: from cells; drop format; drop height";
     CHECK_FALSE(converted(grid_type, to, only, grid(4, 1, "", 1)).empty());
     CHECK_THAT(refusal(grid_type, to, only, grid(5, 1, "", 1)),
-               Contains("'width' is '5', expected is one of: 3, 4"));
+               Contains("'width' is '5', expected one of 3, 4"));
     const char* raw = "refuse format unless rgb bgr; cells: from cells; drop width; drop height";
     CHECK_FALSE(converted(grid_type, to, raw, grid(1, 1, "BGR8", 1)).empty());
     CHECK_THAT(refusal(grid_type, to, raw, grid(1, 1, "", 1)), Contains("'format' is ''"));

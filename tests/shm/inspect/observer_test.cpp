@@ -274,8 +274,13 @@ TEST_CASE("a segment truncated at any place is reported as damaged") {
     }
 }
 
-TEST_CASE("a segment of another layout version is reported as such") {
+TEST_CASE("a segment of another layout version or line size is reported as such") {
     const Furnished pair;
+    overwrite(pair.first->path(), offsetof(layout::SegmentHeader, line_bytes), "\x80");
+    const auto other_lines = observed(pair.link);
+    CHECK(other_lines.segment.readability == Readability::other_layout);
+    CHECK(other_lines.segment.reason ==
+          "lines and pages of 128 and 4096 bytes, this program reads 64 and 4096");
     overwrite(pair.first->path(), offsetof(layout::SegmentHeader, layout_version), "\x63");
     const auto seen = observed(pair.link);
     CHECK(seen.segment.readability == Readability::other_layout);

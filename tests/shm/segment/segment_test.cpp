@@ -82,7 +82,7 @@ TEST_CASE("another layout version is refused with both versions in the message")
                           Contains("has " + std::to_string(layout::layout_version)));
 }
 
-TEST_CASE("a segment of another build's units or byte order is refused with both in one line") {
+TEST_CASE("a segment of another build's units or byte order is refused in one line") {
     Link link;
     auto first = join(link, Side::first);
     const FileDescriptor file(open(first->path().c_str(), O_RDWR | O_CLOEXEC));
@@ -96,7 +96,7 @@ TEST_CASE("a segment of another build's units or byte order is refused with both
     refused_after(offsetof(layout::SegmentHeader, page_bytes), std::uint32_t{65536},
                   "has lines and pages of 128 and 65536 bytes");
     refused_after(offsetof(layout::SegmentHeader, magic), __builtin_bswap64(layout::magic),
-                  "has the other byte order");
+                  "has the byte order of another processor");
 }
 
 TEST_CASE("a segment of another mode is refused while a side lives in it") {

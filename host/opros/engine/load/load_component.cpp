@@ -140,21 +140,30 @@ std::vector<std::string> find_override_errors(const ComponentProfile& profile, c
     return errors;
 }
 
+std::string without_digits(std::string name) {
+    std::erase_if(name, [](char c) { return c >= '0' && c <= '9'; });
+    return name;
+}
+
 /// Returns one line for each property that only the application has and whose name resembles a property that only the
-/// profile has. Other names may be right: the profile need not list all properties that a component reads.
+/// profile has. Other names may be right, for example `joint2` beside `joint1`: the profile need not list all properties
+/// that a component reads.
 std::vector<std::string> find_misspelt_overrides(const ComponentProfile& profile, const Subcomponent& entry) {
     const auto has = [](const Properties& properties, const std::string& name) {
         return std::any_of(properties.begin(), properties.end(),
                            [&](const auto& property) { return property.first == name; });
     };
-    std::vector<std::string> known, errors;
-    for (const auto& [name, value] : profile.properties)
-        if (!has(entry.properties, name)) known.push_back(name);
-    for (const auto& [name, value] : entry.properties)
-        if (const std::string meant = text::did_you_mean(name, known);
-            !meant.empty() && !has(profile.properties, name))
+    std::vector<std::string> errors;
+    for (const auto& [name, value] : entry.properties) {
+        if (has(profile.properties, name)) continue;
+        std::vector<std::string> known;
+        for (const auto& [other, other_value] : profile.properties)
+            if (!has(entry.properties, other) && without_digits(other) != without_digits(name))
+                known.push_back(other);
+        if (const std::string meant = text::did_you_mean(name, known); !meant.empty())
             errors.push_back(entry.location.text() + ": component '" + entry.name + "': " +
                              profile.location.file.filename().string() + " has no property " + name + meant);
+    }
     return errors;
 }
 

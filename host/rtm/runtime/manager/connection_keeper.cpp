@@ -102,8 +102,9 @@ void ConnectionKeeper::forget_lost(const ConnectorProfile& profile) {
 void ConnectionKeeper::report_lost(const ConnectorProfile& profile) {
     const std::string connection = describe_connection(profile);
     std::lock_guard<std::mutex> lock(mutex_);
-    lost_.try_emplace(connection, tandem::process::NoticeKind::lost,
-                      connection + " is lost: the other side is gone; connect the ports again");
+    if (lost_.size() < tandem::process::Notices::places) // peers may choose any names
+        lost_.try_emplace(connection, tandem::process::NoticeKind::lost,
+                          connection + " is lost: the other side is gone; connect the ports again");
     pending_disconnects_.push_back(profile);
     start_thread();
     wake_.notify_all();

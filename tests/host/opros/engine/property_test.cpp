@@ -133,7 +133,7 @@ TEST_CASE("a property of the application is named if it resembles one that only 
           Lines{"app.xml:3: component 'Maker': M.xml has no property Gian; did you mean Gain?"});
     entry.properties.emplace_back("Gain", "2.5");
     CHECK(tandem::engine::check_properties(profile, entry, {}).empty());
-    entry.properties = {{"Threshold", "1"}};
+    entry.properties = {{"Threshold", "1"}, {"Gain2", "1"}};
     CHECK(tandem::engine::check_properties(profile, entry, {}).empty());
 }
 
