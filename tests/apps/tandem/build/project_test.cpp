@@ -132,6 +132,32 @@ TEST_CASE("a library that a project makes from object libraries has their source
     CHECK(found.target.libraries == Names{"m"});
 }
 
+TEST_CASE("a standard is that of the project, also by the name of its draft, and none is older than C++11") {
+    const Folder folder;
+    folder.write("Arm.cpp", module_text);
+    for (const auto& [option, standard] :
+         {std::pair("-std=c++98", 0), {"-std=c++0x", 11}, {"-std=c++1z", 17}, {"-std=gnu++20", 20}}) {
+        INFO(option);
+        folder.write("CMakeLists.txt", std::string("project(arms CXX)\nadd_compile_options(") + option +
+                                           ")\nadd_library(Arm MODULE Arm.cpp)\n");
+        CMakeProjects projects("", 60);
+        CHECK(select(folder.path(), projects).target.standard == standard);
+    }
+}
+
+TEST_CASE("a kept folder serves another project, too") {
+    const Folder folder, other;
+    for (const auto* each : {&folder, &other}) {
+        each->write("CMakeLists.txt", "project(arms CXX)\nadd_library(Arm MODULE Arm.cpp)\n");
+        each->write("Arm.cpp", module_text);
+    }
+    for (const auto* each : {&folder, &other}) {
+        CMakeProjects projects(folder.path() / "build", 60);
+        CHECK(select(each->path(), projects).target.name == "Arm");
+        CHECK(projects.problem().empty());
+    }
+}
+
 TEST_CASE("a project that cannot be configured is read without running it, and the reason is known") {
     const Folder folder;
     folder.write("CMakeLists.txt",
