@@ -77,6 +77,20 @@ TEST_CASE("a macro that calls itself and a file that includes itself are not fol
     CHECK_FALSE(read_cmake_lists(folder.path()).targets.empty());
 }
 
+TEST_CASE("blocks within blocks and variables within variables are not followed for ever") {
+    const Folder folder;
+    std::string text = "add_library(Arm Arm.cpp)\nset(a xxxxxxxxxxxxxxxx)\n";
+    for (int i = 0; i < 6; ++i) text += "set(a ${a}${a}${a}${a}${a}${a}${a}${a})\n";
+    std::string many = "set(b ";
+    for (int i = 0; i < 10'000; ++i) many += "${a}";
+    text += many + ")\n";
+    for (int i = 0; i < 50'000; ++i) text += "if(ON)\n";
+    folder.write("CMakeLists.txt", text + "add_definitions(-D${a})\n");
+    const auto lists = read_cmake_lists(folder.path());
+    CHECK(lists.targets.size() == 1);
+    CHECK(lists.definitions.empty());
+}
+
 // The shapes in one: a program with a further source, an own static library, branches, a header that configuring
 // makes, and required packages that are missing.
 TEST_CASE("CMake itself says what the library of a component compiles") {
