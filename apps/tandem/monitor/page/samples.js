@@ -6,6 +6,8 @@ import {socketAddress} from './server.js';
 const mostSamples = 36000;
 /** Numbers kept of a port. A message has at most 64, but lists of other lengths bring other names. */
 const mostColumns = 128;
+/** Ports that the monitor lets a page follow: the last ones, which the shown view needs, count. */
+const mostPorts = 16;
 /** A port that is silent for longer than this, and than several of its periods, has a gap in its curves. */
 const silentGap = 1000, silentPeriods = 5;
 
@@ -139,7 +141,7 @@ export class SampleStore {
   }
 
   request() {
-    this.socket.send(JSON.stringify({follow: [...this.tracks.keys()].map(portOfKey)}));
+    this.socket.send(JSON.stringify({follow: [...this.tracks.keys()].slice(-mostPorts).map(portOfKey)}));
   }
 
   connect() {

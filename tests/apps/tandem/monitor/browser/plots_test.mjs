@@ -116,13 +116,14 @@ test("the range of values is fixed, and derived curves are added", async () => {
 test("missing messages and silence are gaps; derivative and difference are computed at the samples", async () => {
   const result = await page.evaluate(async () => {
     const { Track, kindByValues } = await import("./samples.js");
-    const { align, pointsOf } = await import("./curves.js");
+    const { align, curveId, pointsOf } = await import("./curves.js");
     const a = new Track("l/first/a"), b = new Track("l/first/b");
     for (const [sequence, time, value] of [[1, 1000, 0], [2, 1010, 1], [5, 1040, 4], [6, 1050, 5], [7, 5000, 6]]) a.append(sequence, time, ["x"], [value]);
     for (const [sequence, time] of [[1, 1005], [2, 1015]]) b.append(sequence, time, ["x"], [10 * sequence]);
     const store = { tracks: new Map([["l/first/a", a], ["l/first/b", b]]) };
     const curve = (more) => ({ key: "l/first/a", name: "x", form: "value", ...more });
     const points = (curve) => pointsOf(store, curve, 0, 9000);
+    const less = (key) => curveId(curve({ form: "difference", minus: { key, name: "x" } }));
     const range = (count, of) => Float64Array.from({ length: count }, (_, i) => of(i));
     const ramp = range(60, (i) => 10 * i), numbers = range(60, (i) => i + 1);
     return {
@@ -130,6 +131,7 @@ test("missing messages and silence are gaps; derivative and difference are compu
       both: align([points(curve()), points(curve({ key: "l/first/b" }))]),
       slope: [...points(curve({ form: "derivative" })).y],
       less: [...points(curve({ form: "difference", minus: { key: "l/first/b", name: "x" } })).y],
+      apart: less("l/first/b") !== less("l/first/c"),
       kinds: [kindByValues(ramp, ramp.map((time) => time / 1000), numbers), kindByValues(ramp, numbers.map((number) => number + 7), numbers),
         kindByValues(ramp, ramp.map(Math.sin), numbers), kindByValues(ramp.slice(0, 3), ramp, numbers)],
     };
@@ -138,6 +140,7 @@ test("missing messages and silence are gaps; derivative and difference are compu
   assert.deepEqual(result.both[2].map((value) => value ?? null), [null, 10, null, 20, null, null, null, null, null]);
   assert.deepEqual(result.slope.map((value) => Number.isNaN(value) ? null : Math.round(value)), [null, 100, null, null, 100, null, null]);
   assert.deepEqual(result.less.map((value) => Number.isNaN(value) ? null : value), [null, -9, null, -16, -15, null, -14]);
+  assert.ok(result.apart);
   assert.deepEqual(result.kinds, ["time", "sequence", "signal", null]);
 });
 
