@@ -7,6 +7,7 @@
 #include "shm/os/clock.hpp"
 
 #include <chrono>
+#include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
@@ -165,7 +166,10 @@ class HostWatch {
         const bool in_order = supervisor_.stop(host_);
         if (was_running && !in_order && record_.runs) {
             record_.runs = false;
-            record_.error = "runs, but does not end within 5 s of SIGTERM, or not with exit code 0";
+            const auto& ended = host_.process.poll();
+            record_.error = ended && (!ended->signalled || ended->code != SIGKILL)
+                                ? fmt::format("runs, but its host {} at its end", ended->text())
+                                : "runs, but does not end within 5 s of SIGTERM";
         }
         return record_;
     }

@@ -143,7 +143,9 @@ TEST_CASE("a census without components is an error, and one in which all run end
     CHECK(tandem_program({"rtm", "census", folder.path() / "nowhere"}).exit_code == 1);
     write_opros(folder, "Good", "");
     write_opros(folder, "Slow", "", "600000"); // its next tick comes after the census
-    const auto all = tandem_program({"opros", "census", folder.path() / "shelf", "--seconds", "1", "--json"});
+    const auto shelf = folder.path() / "shelf";
+    const auto all =
+        tandem_program({"opros", "census", shelf, shelf / "Good", shelf, "--seconds", "1", "--json"});
     INFO(all.output << all.errors);
     CHECK(all.exit_code == 0);
     CHECK(all.json()["run"] == 2);
