@@ -12,8 +12,10 @@
 #include <chrono>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <stdexcept>
 #include <unistd.h>
+#include <utility>
 
 namespace tandem::command {
 namespace {
@@ -27,10 +29,12 @@ struct Shelf {
 
 Shelf find_all(const CensusModel& model, const std::vector<fs::path>& folders) {
     Shelf shelf;
+    std::set<std::pair<fs::path, std::string>> known; // a folder may be below another one
     for (const auto& folder : folders) {
         require_folder(folder);
         for (auto& each : model.find(fs::canonical(folder), shelf.without_source))
-            shelf.candidates.push_back(std::move(each));
+            if (known.emplace(each.profile.empty() ? each.folder : each.profile, each.name).second)
+                shelf.candidates.push_back(std::move(each));
     }
     if (!shelf.candidates.empty()) return shelf;
     throw std::runtime_error(fmt::format(

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/census/confinement.hpp"
 
+#include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -19,6 +21,9 @@ namespace tandem::command {
 namespace {
 
 namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+
+constexpr auto kill_timeout = 5s;
 
 void limit(int resource, rlim_t bytes) {
     rlimit values{};
@@ -38,20 +43,23 @@ pid_t parent_of(const fs::path& process) {
 std::vector<pid_t> children() {
     std::vector<pid_t> found;
     std::error_code ignored;
-    for (const auto& entry : fs::directory_iterator("/proc", ignored)) {
-        const pid_t pid = std::atoi(entry.path().filename().c_str());
-        if (pid > 0 && parent_of(entry.path()) == getpid()) found.push_back(pid);
+    for (fs::directory_iterator at("/proc", ignored), end; !ignored && at != end; at.increment(ignored)) {
+        const pid_t pid = std::atoi(at->path().filename().c_str());
+        if (pid > 0 && parent_of(at->path()) == getpid()) found.push_back(pid);
     }
     return found;
 }
 
-// The children of a killed process become children of this one, so there may be several rounds.
+// The children of a killed process become children of this one, so there may be several rounds. The wait is bounded: a
+// program with the rights of another user is not killed, and one inside the kernel may take long.
 void kill_children() {
-    for (int round = 0; round < 100; ++round) {
+    const auto deadline = std::chrono::steady_clock::now() + kill_timeout;
+    while (std::chrono::steady_clock::now() < deadline) {
         const auto left = children();
         if (left.empty()) return;
         for (const pid_t pid : left) kill(pid, SIGKILL);
-        for (const pid_t pid : left) waitpid(pid, nullptr, 0);
+        for (const pid_t pid : left) waitpid(pid, nullptr, WNOHANG);
+        std::this_thread::sleep_for(1ms);
     }
 }
 
@@ -82,7 +90,10 @@ Confinement::~Confinement() {
 void Confinement::clean() {
     kill_children();
     std::error_code ignored;
-    for (const auto& entry : fs::directory_iterator(folder_, ignored)) fs::remove_all(entry.path(), ignored);
+    std::vector<fs::path> left;
+    for (fs::directory_iterator at(folder_, ignored), end; !ignored && at != end; at.increment(ignored))
+        left.push_back(at->path());
+    for (const auto& path : left) fs::remove_all(path, ignored);
 }
 
 } // namespace tandem::command

@@ -4,8 +4,10 @@
 #include "apps/tandem/monitor/host_files/process_files.hpp"
 #include "host/process/published/component_states.hpp"
 #include "host/rt/tick_page.hpp"
+#include "shm/os/clock.hpp"
 
 #include <chrono>
+#include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
@@ -31,6 +33,7 @@ struct Published {
     bool active = false, error = false;
     std::uint64_t ticks = 0;
     bool has_ticks = false;
+    bool waits = false;   ///< for the time of a tick
     std::string callback; ///< in which a tick is
 };
 
@@ -60,6 +63,8 @@ Published read_published(pid_t pid) {
             read.ticks += slot.ticks;
             if (const auto callback = monitor::printable_text(slot.callback.callback); !callback.empty())
                 read.callback = callback;
+            else
+                read.waits |= slot.due_ns > static_cast<std::int64_t>(shm::now_ns());
         }
     return read;
 }
@@ -150,7 +155,7 @@ class HostWatch {
             record_.error = "goes to its error state: " + first_error_.text();
         else if (!now_.active)
             record_.error = "does not become active" + where(now_);
-        else if (now_.has_ticks && now_.ticks == before.ticks)
+        else if (now_.has_ticks && !now_.waits && now_.ticks == before.ticks) // a period may be longer
             record_.error = "hangs" + where(now_);
         else
             record_.runs = true;
@@ -161,7 +166,10 @@ class HostWatch {
         const bool in_order = supervisor_.stop(host_);
         if (was_running && !in_order && record_.runs) {
             record_.runs = false;
-            record_.error = "runs, but does not end within 5 s of SIGTERM, or not with exit code 0";
+            const auto& ended = host_.process.poll();
+            record_.error = ended && (!ended->signalled || ended->code != SIGKILL)
+                                ? fmt::format("runs, but its host {} at its end", ended->text())
+                                : "runs, but does not end within 5 s of SIGTERM";
         }
         return record_;
     }
@@ -177,8 +185,10 @@ class HostWatch {
 
 HostRecord watch_host(hosts::Supervisor& supervisor, const std::vector<std::string>& command,
                       const std::string& folder, double seconds) {
-    return HostWatch(supervisor, {command.front(), command, "", folder})
-        .run(std::chrono::duration<double>(seconds));
+    const auto record = HostWatch(supervisor, {command.front(), command, "", folder})
+                            .run(std::chrono::duration<double>(seconds));
+    supervisor.hosts().pop_back(); // it has ended; a census of many would use up the descriptors
+    return record;
 }
 
 } // namespace tandem::command

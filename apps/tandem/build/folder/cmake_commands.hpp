@@ -21,7 +21,7 @@ struct CMakeCommand {
 std::vector<CMakeCommand> read_commands(const std::filesystem::path& file);
 
 /// Expands the variables ${NAME} and $(NAME) in words. A word that is one reference may become several words
-/// or none. A word with an unknown variable is omitted.
+/// or none. A word with an unknown variable is omitted, and so is what goes beyond 1 MiB.
 Words expand(const Words& words, const Variables& variables);
 
 /// Splits text at white space, quotes, ';' and ','.

@@ -5,9 +5,14 @@
 #include <algorithm>
 #include <cctype>
 #include <sstream>
+#include <utility>
 
 namespace tandem::command {
 namespace {
+
+// Bytes of expanded words: variables that contain each other multiply.
+constexpr std::size_t max_expanded = 1 << 20;
+constexpr int max_references = 100; // in a word
 
 // A reference to a variable, ${NAME} or $(NAME), and its place in a word. `name` is empty if there is none.
 struct Reference {
@@ -65,17 +70,23 @@ std::vector<CMakeCommand> read_commands(const std::filesystem::path& file) {
 
 Words expand(const Words& words, const Variables& variables) {
     Words all;
+    std::size_t size = 0;
     for (std::string word : words) {
         Words values{word};
+        int references = 0;
         for (auto found = find_variable_reference(word); !found.name.empty();
              found = find_variable_reference(word)) {
             const auto known = variables.find(found.name);
             values = known == variables.end() ? Words{} : known->second;
             if (values.size() != 1 || (found.begin == 0 && found.end == word.size())) break;
+            if (++references > max_references || word.size() + values[0].size() > max_expanded) return all;
             word.replace(found.begin, found.end - found.begin, values[0]);
             values = {word};
         }
-        all.insert(all.end(), values.begin(), values.end());
+        for (auto& value : values) {
+            if ((size += value.size() + 1) > max_expanded) return all;
+            all.push_back(std::move(value));
+        }
     }
     return all;
 }

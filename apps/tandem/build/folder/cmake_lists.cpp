@@ -70,7 +70,10 @@ class Interpreter {
     }
 
     void run(const Commands& all, std::size_t begin, std::size_t end) {
-        for (auto at = begin; at < end; ++at) {
+        if (nesting_ > max_nesting) return;
+        ++nesting_;
+        for (auto at = begin; at < end && work_ <= max_work; ++at) {
+            work_ += 1 + all[at].text.size();
             const auto& name = all[at].name;
             const bool is_block =
                 name == "foreach" || name == "while" || name == "function" || name == "macro";
@@ -85,6 +88,7 @@ class Interpreter {
                 run_command(all[at]);
             if (is_block) at = last;
         }
+        --nesting_;
     }
 
     // Runs the branches that are taken or may be taken. Returns the index of endif().
@@ -93,6 +97,7 @@ class Interpreter {
         const bool was_certain = certain_;
         auto at = begin;
         while (at < end && all[at].name != "endif") {
+            work_ += all[at].text.size(); // of elseif()
             const auto truth =
                 all[at].name == "else" ? Truth::yes : evaluate_condition(all[at].text, variables_);
             const auto next = find_branch_end(all, at, end);
@@ -162,7 +167,7 @@ class Interpreter {
     void run_command(const CMakeCommand& command) {
         const Words words = expand(split(command.text), variables_);
         for (const auto& word : words) work_ += word.size();
-        if (++work_ > max_work) return; // macros, loops and lists can multiply
+        if (work_ > max_work) return; // macros, loops and lists can multiply
         if (command.name == "add_definitions" || command.name == "add_compile_definitions")
             add_definitions(command);
         else if (const auto macro = macros_.find(command.name); macro != macros_.end())
@@ -233,12 +238,14 @@ class Interpreter {
     }
 
     static constexpr int max_depth = 20;
+    static constexpr int max_nesting = 200;
     static constexpr std::size_t max_work = 16 << 20;
     Variables variables_{{"CMAKE_SYSTEM_NAME", {"Linux"}}, {"CMAKE_CXX_COMPILER_ID", {"GNU"}}};
     std::map<std::string, Macro> macros_;
     bool certain_ = true;  // not within a branch with an unknown condition
     int depth_ = 0;        // of macros and included files
-    std::size_t work_ = 0; // commands and bytes of their words
+    int nesting_ = 0;      // of blocks, also through macros and included files
+    std::size_t work_ = 0; // commands, their text, and bytes of their words
 };
 
 } // namespace

@@ -2,7 +2,7 @@
 #include "apps/tandem/build/project/cmake_projects.hpp"
 #include "apps/tandem/build/first_error.hpp"
 #include "apps/tandem/build/folder/checkout.hpp"
-#include "apps/tandem/build/folder/cmake_lists.hpp"
+#include "apps/tandem/build/folder/cmake_commands.hpp"
 #include "apps/tandem/build/folder/source_text.hpp"
 #include "apps/tandem/build/project/cmake_package.hpp"
 #include "apps/tandem/build/project/tolerant_project.hpp"
@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <regex>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -26,10 +25,11 @@ using Paths = std::vector<fs::path>;
 constexpr double max_configure_s = 120;
 
 bool begins_project(const fs::path& folder) {
-    static const std::regex command("[ \t]*project[ \t]*\\(.*", std::regex::icase);
-    const auto lines = read_lines(folder / "CMakeLists.txt");
-    return std::any_of(lines.begin(), lines.end(),
-                       [](const auto& line) { return std::regex_match(line, command); });
+    for (auto line : read_lines(folder / "CMakeLists.txt")) {
+        std::erase_if(line, [](char c) { return c == ' ' || c == '\t'; });
+        if (to_lower(line.substr(0, 8)) == "project(") return true;
+    }
+    return false;
 }
 
 // Returns the folders of the projects around a source, the nearest first. Sources outside of the component's folder
@@ -101,6 +101,7 @@ std::vector<std::string> configure_command(const fs::path& project, const fs::pa
              "-DTandem_DIR=" + (packages / "Tandem").string(),
              "-Dcatkin_DIR=" + (packages / "Tandem" / "catkin").string(),
              "-DFETCHCONTENT_FULLY_DISCONNECTED=ON",
+             "-DCMAKE_EXPORT_NO_PACKAGE_REGISTRY=ON",
              "-DBUILD_DOCUMENTATION=OFF",
              "-DCMAKE_POLICY_VERSION_MINIMUM=3.5",
              "--no-warn-unused-cli"})
@@ -140,6 +141,7 @@ const CMakeProjects::Project& CMakeProjects::configure(const fs::path& folder) {
     if (!scratch_) scratch_.emplace(build_);
     const auto scratch = scratch_->path() / std::to_string(projects_.size() + 1);
     request_codemodel(scratch);
+    fs::remove(scratch / "CMakeCache.txt"); // of a folder that is kept: it may be another project's
     write_file(scratch / "tolerant.cmake", tolerant_project);
     process::CommandOptions options;
     options.timeout = std::chrono::milliseconds(static_cast<std::int64_t>(timeout_s_ * 1000));

@@ -37,6 +37,17 @@ std::vector<std::string> words_of(const Json& fragment) {
     return words;
 }
 
+// Returns the number of the standard in an option such as -std=gnu++17; 0 for C, C++98 and C++03.
+int standard_of(const std::string& option) {
+    static const std::map<std::string, int> drafts{{"0x", 11}, {"1y", 14}, {"1z", 17},
+                                                   {"2a", 20}, {"2b", 23}, {"2c", 26}};
+    const auto at = option.find("++");
+    const auto number = at == std::string::npos ? "" : option.substr(at + 2);
+    if (const auto draft = drafts.find(number); draft != drafts.end()) return draft->second;
+    const int year = std::atoi(number.c_str());
+    return year < 90 && year != 3 ? year : 0;
+}
+
 // Options that change what the code means or which instructions it uses. The plugin has its own optimization.
 bool changes_code(const std::string& option) {
     return (option.rfind("-f", 0) == 0 && to_lower(option) != "-fpic") || option.rfind("-m", 0) == 0 ||
@@ -143,7 +154,7 @@ class Reader {
             if (*word == "-include" && std::next(word) != words.end())
                 add_new(target.options, "SHELL:-include " + *++word);
             else if (word->rfind("-std=", 0) == 0)
-                target.standard = std::atoi(word->c_str() + word->find("++") + 2);
+                target.standard = standard_of(*word);
             else if (changes_code(*word))
                 add_new(target.options, *word);
         }

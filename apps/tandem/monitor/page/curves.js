@@ -5,7 +5,7 @@
 const mostPoints = 3000;
 
 /** A curve: `key` of its port, `name` of the number, `form`: value, derivative, or difference to the curve `minus`. */
-export const curveId = ({key, name, form = 'value'}) => `${form} ${key} ${name}`;
+export const curveId = ({key, name, form = 'value', minus}) => `${form} ${key} ${name}${minus ? ` - ${minus.key} ${minus.name}` : ''}`;
 
 /** Returns the label of a curve for people; `alone`: all curves of the plot are of one port. */
 export function labelOf({key, name, form, minus}, alone) {

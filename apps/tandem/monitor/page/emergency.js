@@ -4,6 +4,7 @@ import {setClass, setText} from './dom.js';
 
 const patience = 2000; // ms for the chair to confirm, which takes a few ticks
 const otherWay = 'Stop the chair by its own switch, or press Ctrl-C where wheelchair runs.';
+const inEffect = '■ Emergency stop. It lasts until the run ends. To drive again: press Ctrl-C where wheelchair runs, and start it again.';
 
 export class EmergencyStop {
   /** `answer`: the element for the outcome. `connection`: of control.js. */
@@ -20,14 +21,19 @@ export class EmergencyStop {
   async stop() {
     this.onstop?.();
     this.tell(false, 'Emergency stop: sending ...');
-    const reply = await this.connection.ask({op: 'drive', link: this.link, x: 0, y: 0, stop: true});
-    if (this.pressed) return;
-    if (!reply.ok) return this.tell(true, `✕ Emergency stop failed: ${reply.text}. ${otherWay}`);
-    this.waits = true;
-    this.tell(false, 'Emergency stop: sent, the chair has not confirmed it yet ...');
-    setTimeout(() => {
+    this.waits = !this.pressed;
+    clearTimeout(this.late); // of a press before
+    this.late = setTimeout(() => {
       if (this.waits) this.tell(true, `✕ The chair has not confirmed the emergency stop. ${otherWay}`);
+      this.waits = false;
     }, patience);
+    const reply = await this.connection.ask({op: 'drive', link: this.link, x: 0, y: 0, stop: true});
+    if (this.pressed) return this.tell(true, inEffect); // also before this press
+    if (!reply.ok) {
+      this.waits = false;
+      return this.tell(true, `✕ Emergency stop failed: ${reply.text}. ${otherWay}`);
+    }
+    if (this.waits) this.tell(false, 'Emergency stop: sent, the chair has not confirmed it yet ...');
   }
 
   /** Called with each message of the chair. */
@@ -35,7 +41,6 @@ export class EmergencyStop {
     const pressed = chair.emergency_stop === 1;
     if (pressed === this.pressed && link === this.link) return;
     Object.assign(this, {link, pressed, waits: this.waits && !pressed});
-    this.tell(pressed, pressed ? '■ Emergency stop. It lasts until the run ends. To drive again: press Ctrl-C where wheelchair runs, ' +
-      'and start it again.' : '');
+    this.tell(pressed, pressed ? inEffect : '');
   }
 }

@@ -146,7 +146,8 @@ export class PlotView {
 
 /** Returns the last value at or before an index; other curves of the plot may have no sample there. */
 function lastOf(column, index) {
+  if (!column) return undefined; // of a curve that is not drawn yet
   let at = index;
   while (at > 0 && column[at] === undefined) --at;
-  return column?.[at];
+  return column[at];
 }

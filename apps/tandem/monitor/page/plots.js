@@ -110,7 +110,7 @@ class PlotCard {
 
 export class PlotsPanel {
   constructor(store) {
-    Object.assign(this, {store, cards: [], active: null, pending: null});
+    Object.assign(this, {store, cards: [], active: null, pending: null, note: ''});
     this.tree = new MemberTree(find('member-tree'), find('member-filter'), find('member-note'), store, {
       toggle: (curve) => this.toggle(curve), has: (curve) => this.hasCurve(curve), open: (key) => this.openPort(key)});
     find('new-plot').addEventListener('click', () => this.addPlot({curves: [], seconds: 10, range: null, own: true}));
@@ -133,12 +133,17 @@ export class PlotsPanel {
     const keys = new Set(this.cards.flatMap(({plot}) => plot.curves.flatMap(({key, minus}) => minus ? [key, minus.key] : [key])));
     if (this.pending) keys.add(this.pending);
     this.store.follow(this, [...keys].slice(0, mostPorts));
+    this.note = keys.size > mostPorts ? `The plots show ${mostPorts} ports at most: remove curves of another port.` : '';
     find('plots-hint').hidden = this.cards.length > 0;
     for (const card of this.cards) card.update();
   }
 
+  /** Returns the card, or null if there are too many. */
   addPlot(plot) {
-    if (this.cards.length >= mostPlots) return this.activate(this.cards[0]);
+    if (this.cards.length >= mostPlots) {
+      this.note = `There are ${mostPlots} plots: remove one first.`;
+      return null;
+    }
     const card = new PlotCard(this, plot);
     this.cards.unshift(card);
     find('plots').prepend(card.element);
@@ -170,7 +175,9 @@ export class PlotsPanel {
 
   addCurve(card, curve) {
     const known = card.plot.curves.some((each) => curveId(each) === curveId(curve));
-    if (!known && card.plot.curves.length < mostCurves) this.change(card, [...card.plot.curves, curve]);
+    if (known) return;
+    if (card.plot.curves.length < mostCurves) this.change(card, [...card.plot.curves, curve]);
+    else this.note = `A plot has ${mostCurves} curves at most: remove one first.`;
   }
 
   hasCurve(curve) { return this.active?.plot.curves.some((each) => curveId(each) === curveId(curve)) ?? false; }
@@ -185,9 +192,11 @@ export class PlotsPanel {
   openPort(key) {
     const known = this.cards.find(({plot}) => !plot.own && plot.key === key);
     const card = known ?? this.cards.find(({plot}) => !plot.own) ?? this.addPlot({curves: [], seconds: 10, range: null, own: false});
+    if (!card) return;
     if (!known) Object.assign(card.plot, {curves: [], key, own: false});
     this.tree.expanded.add(key);
-    this.pending = known ? null : key;
+    this.pending = card.plot.curves.length > 0 ? null : key; // a second click finds it empty
+    this.firstSeen = undefined;
     this.keep();
     this.activate(card);
     card.element.scrollIntoView({block: 'nearest'});
@@ -240,7 +249,7 @@ export class PlotsPanel {
       if (now - drawn < pause) return;
       drawn = now;
       if (this.pending) this.fillPending();
-      setText(find('plots-note'), this.store.refusal);
+      setText(find('plots-note'), this.note || this.store.refusal);
       for (const card of this.cards) card.view.draw(Plot);
     };
     requestAnimationFrame(frame);

@@ -4,6 +4,10 @@ import {socketAddress} from './server.js';
 
 /** Samples kept of a port: 6 minutes at 100 Hz. */
 const mostSamples = 36000;
+/** Numbers kept of a port. A message has at most 64, but lists of other lengths bring other names. */
+const mostColumns = 128;
+/** Ports that the monitor lets a page follow: the last ones, which the shown view needs, count. */
+const mostPorts = 16;
 /** A port that is silent for longer than this, and than several of its periods, has a gap in its curves. */
 const silentGap = 1000, silentPeriods = 5;
 
@@ -32,12 +36,12 @@ export function kindByValues(times, values, sequences) {
 export class Track {
   constructor(key) {
     Object.assign(this, {key, size: 0, sequence: 0, period: 0, names: [], kinds: new Map(), columns: new Map(), version: 0});
-    this.times = new Float64Array(2 * mostSamples);
-    this.sequences = new Float64Array(2 * mostSamples);
+    this.times = new Float64Array(1024);
+    this.sequences = new Float64Array(1024);
   }
 
   column(name) {
-    if (!this.columns.has(name)) this.columns.set(name, new Float64Array(2 * mostSamples).fill(NaN));
+    if (!this.columns.has(name)) this.columns.set(name, new Float64Array(this.times.length).fill(NaN));
     return this.columns.get(name);
   }
 
@@ -55,12 +59,34 @@ export class Track {
 
   push(sequence, time, names, values) {
     if (this.size === 2 * mostSamples) this.forgetHalf();
+    else if (this.size === this.times.length) this.grow();
     this.times[this.size] = time;
     this.sequences[this.size] = sequence;
     for (const column of this.columns.values()) column[this.size] = NaN;
     names.forEach((name, i) => { this.column(name)[this.size] = values[i] ?? NaN; });
+    if (this.columns.size > mostColumns) this.forgetNames(new Set(names));
     ++this.size;
     ++this.version;
+  }
+
+  grow() {
+    const larger = (column) => {
+      const copy = new Float64Array(Math.min(2 * column.length, 2 * mostSamples)).fill(NaN, column.length);
+      copy.set(column);
+      return copy;
+    };
+    this.times = larger(this.times);
+    this.sequences = larger(this.sequences);
+    for (const [name, column] of this.columns) this.columns.set(name, larger(column));
+  }
+
+  /** Forgets the numbers that the newest message does not have. */
+  forgetNames(newest) {
+    for (const name of this.columns.keys())
+      if (!newest.has(name)) {
+        this.columns.delete(name);
+        this.kinds.delete(name);
+      }
   }
 
   forgetHalf() {
@@ -115,7 +141,7 @@ export class SampleStore {
   }
 
   request() {
-    this.socket.send(JSON.stringify({follow: [...this.tracks.keys()].map(portOfKey)}));
+    this.socket.send(JSON.stringify({follow: [...this.tracks.keys()].slice(-mostPorts).map(portOfKey)}));
   }
 
   connect() {

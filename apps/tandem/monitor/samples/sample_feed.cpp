@@ -2,6 +2,7 @@
 #include "apps/tandem/monitor/samples/sample_feed.hpp"
 
 #include "apps/tandem/monitor/newest_value.hpp"
+#include "apps/tandem/observe/json_message.hpp"
 #include "apps/tandem/observe/message_json.hpp"
 #include "apps/tandem/record/cdr_message.hpp"
 #include "proxy/wire/time.hpp"
@@ -26,6 +27,11 @@ constexpr RoundBounds look_bounds{std::size_t{8} << 20, 10'000'000};
 constexpr double believable_ms = 2000;
 
 double to_ms(std::uint64_t ns) { return static_cast<double>(ns) / 1e6; }
+
+/// An any brings its own type, and a list of elements without bytes may be as long as its sender says.
+bool is_plotted(const wire::Type& message) {
+    return std::all_of(message.children.begin(), message.children.end(), command::takes_bytes);
+}
 
 std::string chunk_head(const SamplePort& port, const std::vector<std::string>& names) {
     const nlohmann::json head{
@@ -135,7 +141,7 @@ void SampleFeed::poll(const SamplePort& port, Followed& followed, Round& round) 
 
 void SampleFeed::add_sample(const SamplePort& port, Followed& followed, const command::FollowedPort& of,
                             const shm::FollowedRecord& record) {
-    if (record.bytes.size() > NewestValue::max_message) return;
+    if (record.bytes.size() > NewestValue::max_message || !is_plotted(of.message)) return;
     try {
         const auto [names, values] = numbers_of(command::message_to_json(of, record.bytes, record.stamp));
         const bool begins = followed.chunks.empty() || names != followed.names;

@@ -77,6 +77,20 @@ TEST_CASE("a macro that calls itself and a file that includes itself are not fol
     CHECK_FALSE(read_cmake_lists(folder.path()).targets.empty());
 }
 
+TEST_CASE("blocks within blocks and variables within variables are not followed for ever") {
+    const Folder folder;
+    std::string text = "add_library(Arm Arm.cpp)\nset(a xxxxxxxxxxxxxxxx)\n";
+    for (int i = 0; i < 6; ++i) text += "set(a ${a}${a}${a}${a}${a}${a}${a}${a})\n";
+    std::string many = "set(b ";
+    for (int i = 0; i < 10'000; ++i) many += "${a}";
+    text += many + ")\n";
+    for (int i = 0; i < 50'000; ++i) text += "if(ON)\n";
+    folder.write("CMakeLists.txt", text + "add_definitions(-D${a})\n");
+    const auto lists = read_cmake_lists(folder.path());
+    CHECK(lists.targets.size() == 1);
+    CHECK(lists.definitions.empty());
+}
+
 // The shapes in one: a program with a further source, an own static library, branches, a header that configuring
 // makes, and required packages that are missing.
 TEST_CASE("CMake itself says what the library of a component compiles") {
@@ -130,6 +144,32 @@ TEST_CASE("a library that a project makes from object libraries has their source
     CHECK(names_of(found.sources) == Names{"Arm.cpp", "Part.cpp"});
     CHECK(found.target.name == "Arm");
     CHECK(found.target.libraries == Names{"m"});
+}
+
+TEST_CASE("a standard is that of the project, also by the name of its draft, and none is older than C++11") {
+    const Folder folder;
+    folder.write("Arm.cpp", module_text);
+    for (const auto& [option, standard] :
+         {std::pair("-std=c++98", 0), {"-std=c++0x", 11}, {"-std=c++1z", 17}, {"-std=gnu++20", 20}}) {
+        INFO(option);
+        folder.write("CMakeLists.txt", std::string("project(arms CXX)\nadd_compile_options(") + option +
+                                           ")\nadd_library(Arm MODULE Arm.cpp)\n");
+        CMakeProjects projects("", 60);
+        CHECK(select(folder.path(), projects).target.standard == standard);
+    }
+}
+
+TEST_CASE("a kept folder serves another project, too") {
+    const Folder folder, other;
+    for (const auto* each : {&folder, &other}) {
+        each->write("CMakeLists.txt", "project(arms CXX)\nadd_library(Arm MODULE Arm.cpp)\n");
+        each->write("Arm.cpp", module_text);
+    }
+    for (const auto* each : {&folder, &other}) {
+        CMakeProjects projects(folder.path() / "build", 60);
+        CHECK(select(each->path(), projects).target.name == "Arm");
+        CHECK(projects.problem().empty());
+    }
 }
 
 TEST_CASE("a project that cannot be configured is read without running it, and the reason is known") {

@@ -38,7 +38,8 @@ void write_rtc(const Folder& folder, const std::string& name, const std::string&
                     name, include, body));
 }
 
-void write_opros(const Folder& folder, const std::string& name, const std::string& body) {
+void write_opros(const Folder& folder, const std::string& name, const std::string& body,
+                 const std::string& period = "10") {
     folder.write("shelf/" + name + "/" + name + ".cpp",
                  fmt::format("#include <Component.h>\n#include <csignal>\n"
                              "struct {0} : Component {{\n"
@@ -49,9 +50,9 @@ void write_opros(const Folder& folder, const std::string& name, const std::strin
     folder.write("shelf/" + name + "/profile/" + name + ".xml",
                  fmt::format("<component_profile><name>{0}</name><execution_environment>"
                              "<library_name>{0}.dll</library_name></execution_environment>"
-                             "<execution_semantics><type>periodic</type><period>10</period>"
+                             "<execution_semantics><type>periodic</type><period>{1}</period>"
                              "</execution_semantics></component_profile>",
-                             name));
+                             name, period));
 }
 
 std::vector<fs::path> files_below(const fs::path& folder) {
@@ -141,8 +142,11 @@ TEST_CASE("a census without components is an error, and one in which all run end
     CHECK_THAT(none.errors, Catch::Contains("no component with sources"));
     CHECK(tandem_program({"rtm", "census", folder.path() / "nowhere"}).exit_code == 1);
     write_opros(folder, "Good", "");
-    const auto all = tandem_program({"opros", "census", folder.path() / "shelf", "--seconds", "1", "--json"});
+    write_opros(folder, "Slow", "", "600000"); // its next tick comes after the census
+    const auto shelf = folder.path() / "shelf";
+    const auto all =
+        tandem_program({"opros", "census", shelf, shelf / "Good", shelf, "--seconds", "1", "--json"});
     INFO(all.output << all.errors);
     CHECK(all.exit_code == 0);
-    CHECK(all.json()["run"] == 1);
+    CHECK(all.json()["run"] == 2);
 }

@@ -145,6 +145,19 @@ test("the emergency stop stays", async () => {
   assert.equal((await chairNow()).brake, 1);
   const answer = await page.locator("#drive-answer").textContent();
   assert.match(answer, /^■ Emergency stop\. It lasts until the run ends\. To drive again: press Ctrl-C where wheelchair runs/);
+  await page.locator("#emergency").click();
+  await page.waitForFunction(() => document.querySelector("#drive-answer").textContent.startsWith("■"));
+});
+
+test("an emergency stop that nobody answers is told before the answer is given up", async () => {
+  const text = await page.evaluate(async () => {
+    const { EmergencyStop } = await import("./emergency.js");
+    const answer = document.createElement("p");
+    new EmergencyStop(document.createElement("button"), answer, { ask: () => new Promise(() => {}) }).stop();
+    while (!answer.textContent.startsWith("✕")) await new Promise((resolve) => setTimeout(resolve, 50));
+    return answer.textContent;
+  });
+  assert.match(text, /^✕ The chair has not confirmed the emergency stop/);
 });
 
 test("an emergency stop that does not reach the chair says so", async () => {

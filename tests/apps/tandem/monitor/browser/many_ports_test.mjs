@@ -100,6 +100,19 @@ test("scrolling to any port and filtering show what they should", async () => {
   assert.match(await page.locator("#filter").inputValue(), /^Plant\d$/);
 });
 
+test("a host with many components has those that failed in the graph, and says where the others are", async () => {
+  const [names, note] = await page.evaluate(async () => {
+    const { topologyOf } = await import("./topology.js");
+    const side = (pid) => ({ pid, state: "alive", model: "RTM", program: "rtm_host" });
+    const link = { name: "l", readable: true, sides: { first: side(1), second: side(2) }, ports: [], shared_ports: [], call_queues: [] };
+    const rows = Array.from({ length: 500 }, (_, i) => ({ name: `c${i}`, pid: 1, key: `c${i}`, state: i === 400 ? "error" : "active", tick: null }));
+    const { hosts, note } = topologyOf([link], [], rows);
+    return [hosts[0].components.map((component) => component.name), note];
+  });
+  assert.deepEqual([names.length, names[0], names[1]], [40, "c400", "c0"]);
+  assert.equal(note, '460 more components are listed in the view "Components"');
+});
+
 test("a port of a thousand is chosen and plotted, and the death of the system is told", async () => {
   await page.locator("#filter").fill("sensor7");
   await page.getByRole("button", { name: "sensor77", exact: true }).first().click();

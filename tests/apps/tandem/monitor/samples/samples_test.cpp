@@ -177,6 +177,24 @@ TEST_CASE("ports of links that the monitor does not show are not followed") {
     }
 }
 
+TEST_CASE("messages with an any are not plotted: they may be long beyond their bytes") {
+    const Pair pair, other;
+    const auto rings = add_ports(*pair.first, {"speed"}), others = add_ports(*other.first, {"speed"}, "v");
+    RingWriter writer(rings[0]), anys(others[0]);
+    const RunningMonitor monitor(pair.link.name, {other.link.name});
+    Plotter page(monitor, pair.link.name, writer);
+    Json both = follow(pair.link.name, {"speed"});
+    both["follow"].push_back({{"link", other.link.name}, {"owner", "first"}, {"port", "speed"}});
+    page.send(both.dump());
+    // The type "i" as CDR text, and a block of 4 bytes with the number 1.
+    const std::uint32_t any[] = {2, 'i', 4, 1};
+    for (int i = 0; i < 20; ++i) {
+        anys.write(std::as_bytes(std::span(any)), now_ns());
+        writer.write(bytes_of_number(0), now_ns());
+        for (const auto& sample : page.collect(1)) CHECK(sample[2] == 0);
+    }
+}
+
 TEST_CASE("samples are only for the monitor's own page") {
     const Pair pair;
     const RunningMonitor monitor(pair.link.name);
