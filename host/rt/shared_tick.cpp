@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rt/shared_tick.hpp"
 
-#include "host/process/start_thread.hpp"
 #include "host/rt/tick_thread.hpp"
 
 #include <atomic>
@@ -14,6 +13,7 @@ std::shared_ptr<SharedTick> SharedTick::start(const SharedTickOptions& options, 
     TickThreads& threads = TickThreads::all();
     const TickThread::Lock all(threads.mutex);
     threads.add(tick, options);
+    threads.ensure_watch();
     return tick;
 }
 
@@ -33,22 +33,11 @@ void SharedTick::wake() {
 void SharedTick::change(const SharedTickOptions& options) {
     TickThreads& threads = TickThreads::all();
     const TickThread::Lock all(threads.mutex);
-    const auto former = thread_;
-    const TickThread::Lock lock(former->mutex);
-    next_options_.reset();
-    if (left_ || are_equal(former->options, options)) return;
-    if (former->running == this) {
+    {
+        const TickThread::Lock lock(thread_->mutex);
         next_options_ = options;
-        return;
     }
-    try {
-        threads.add(shared_from_this(), options);
-    } catch (const process::NotStarted& error) {
-        thread_ = former;
-        work_.log(work_.name + " keeps its former period: " + error.what());
-        return;
-    }
-    threads.remove(*this, former);
+    threads.apply_change(shared_from_this());
 }
 
 bool SharedTick::leave(std::chrono::nanoseconds timeout) {

@@ -118,11 +118,13 @@ void TickThread::run_cycle(Lock& lock, const std::shared_ptr<SharedTick>& tick) 
     const bool is_slow = !tick->left_ && members.size() > 1 && takes_too_long(*tick, took);
     if (!is_slow && !tick->next_options_) return;
     lock.unlock();
-    if (is_slow) {
-        const Lock all(TickThreads::all().mutex);
-        TickThreads::all().separate(tick, took);
-    } else {
-        tick->change(*tick->next_options_);
+    {
+        TickThreads& threads = TickThreads::all();
+        const Lock all(threads.mutex);
+        if (is_slow)
+            threads.separate(tick, took);
+        else
+            threads.apply_change(tick);
     }
     lock.lock();
 }

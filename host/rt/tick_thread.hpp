@@ -53,7 +53,7 @@ class TickThreads {
     /// Never deleted: a thread that hangs in a cycle may outlive static objects.
     static TickThreads& all();
 
-    // The next four require the mutex.
+    // The next five require the mutex.
 
     /// Adds the tick to a thread with these options. Throws process::NotStarted.
     void add(const std::shared_ptr<SharedTick>& tick, const SharedTickOptions& options);
@@ -61,6 +61,8 @@ class TickThreads {
     void remove(const SharedTick& tick, const std::shared_ptr<TickThread>& thread);
     /// Looks for cycles that hang, as long as threads have several members that do not rest.
     void ensure_watch();
+    /// Moves the tick to a thread with its next options, if it has any. While its cycle runs, this waits for the cycle's end.
+    void apply_change(const std::shared_ptr<SharedTick>& tick);
     /// Gives the tick a thread that no other tick joins, unless it has left or no thread can be started.
     void separate(const std::shared_ptr<SharedTick>& tick, std::int64_t took);
 

@@ -169,6 +169,13 @@ TEST_CASE("a shared tick changes its period from outside and in its cycle") {
     CHECK(neighbour.cycles == 0);
 }
 
+TEST_CASE("a shared tick that is alone in its thread changes its period") {
+    Cell cell(1h);
+    cell.tick->change({2h, {}, {}});
+    cell.tick->change({1ms, {}, {}});
+    CHECK(cell.reaches(5));
+}
+
 TEST_CASE("only the first ticks of a process have separate threads") {
     std::vector<std::shared_ptr<void>> tokens;
     while (auto token = tandem::rt::take_separate_tick_thread()) tokens.push_back(std::move(token));
