@@ -51,7 +51,8 @@ bool SharedTick::leave(std::chrono::nanoseconds timeout) {
     const bool is_inside = thread->id == std::this_thread::get_id();
     if (is_inside) return true;
     if (!thread->changed.wait_for(lock, timeout, [&] { return thread->running != this; })) return false;
-    if (!thread->members.empty() || !thread->thread.joinable()) return true;
+    // Another tick that has left may still be in its cycle, and may hang. Its thread then ends without being awaited.
+    if (!thread->members.empty() || thread->running != nullptr || !thread->thread.joinable()) return true;
     std::thread ending = std::move(thread->thread);
     lock.unlock();
     ending.join();

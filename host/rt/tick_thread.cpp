@@ -39,6 +39,10 @@ bool TickThread::rests() const {
     return std::all_of(members.begin(), members.end(), [](const auto& each) { return each->rests_; });
 }
 
+bool TickThread::delays_members() const {
+    return members.size() > 1 || (running != nullptr && !members.empty() && members.front().get() != running);
+}
+
 void TickThread::add(const std::shared_ptr<SharedTick>& tick) {
     members.push_back(tick);
     tick->thread_ = shared_from_this();
@@ -58,7 +62,7 @@ bool TickThread::hangs(std::int64_t now) {
     const std::int64_t limit = std::clamp<std::int64_t>(options.period.count(), shortest_hang, longest_hang);
     const bool is_second_look = running != nullptr && looked_at == running_since;
     looked_at = running != nullptr ? running_since : 0;
-    return is_second_look && members.size() > 1 && now - running_since > limit;
+    return is_second_look && delays_members() && now - running_since > limit;
 }
 
 void TickThread::plan_next() {

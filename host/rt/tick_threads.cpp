@@ -109,7 +109,7 @@ void TickThreads::ensure_watch() {
 bool TickThreads::has_work_to_watch() const {
     return std::any_of(threads_.begin(), threads_.end(), [](const auto& each) {
         const TickThread::Lock lock(each->mutex);
-        return each->members.size() > 1 && (each->has_woken || !each->rests());
+        return each->delays_members() && (each->has_woken || !each->rests());
     });
 }
 

@@ -130,6 +130,21 @@ TEST_CASE("the neighbours of a cycle that hangs get another thread") {
     CHECK(hanging.cycles == 1);
 }
 
+TEST_CASE("a cycle that hangs after its tick has left keeps no neighbour from running and leaving") {
+    std::atomic<bool> hangs{true};
+    const bool leaves_at_once = GENERATE(false, true);
+    Cell neighbour(5ms);
+    Cell hanging(5ms, [&] {
+        while (hangs) std::this_thread::sleep_for(1ms);
+        return Next::tick;
+    });
+    while (!hanging.inside) std::this_thread::sleep_for(1ms);
+    CHECK_FALSE(hanging.tick->leave(0ns));
+    if (!leaves_at_once) CHECK(neighbour.reaches(neighbour.cycles + 5));
+    CHECK(neighbour.tick->leave(1h));
+    hangs = false;
+}
+
 TEST_CASE("no cycle begins after leave(), and one that leaves in itself is the last one") {
     Cell cell(1ms);
     REQUIRE(cell.reaches(3));
