@@ -46,6 +46,7 @@ bool TickThread::delays_members() const {
 void TickThread::add(const std::shared_ptr<SharedTick>& tick) {
     members.push_back(tick);
     tick->thread_ = shared_from_this();
+    has_woken = has_woken || (tick->rests_ && tick->woken_);
     changed.notify_all();
 }
 

@@ -132,7 +132,7 @@ void TickThreads::rescue_neighbours(std::shared_ptr<TickThread>& thread) {
         const TickThread::Lock lock(hanging->mutex);
         if (!hanging->hangs(monotonic_ns())) return;
         const auto others = std::make_shared<TickThread>(hanging->options);
-        others->has_woken = hanging->has_woken;
+        others->has_woken = true; // the round of the hanging cycle has not reached all members
         std::vector<std::shared_ptr<SharedTick>> kept;
         for (const auto& each : hanging->members)
             (each.get() == hanging->running ? kept : others->members).push_back(each);

@@ -95,6 +95,24 @@ TEST_CASE("a shared tick that is woken in a cycle, which then rests, runs again"
     CHECK(cell.reaches(2));
 }
 
+TEST_CASE("a shared tick that is woken and changed in a cycle, which then rests, runs again") {
+    std::atomic<bool> again{true};
+    std::shared_ptr<SharedTick> tick;
+    Cell cell(
+        1h,
+        [&] {
+            if (again.exchange(false)) {
+                tick->wake();
+                tick->change({2h, {}, {}});
+            }
+            return Next::rest;
+        },
+        Next::rest);
+    tick = cell.tick;
+    tick->wake();
+    CHECK(cell.reaches(2));
+}
+
 TEST_CASE("a cycle that waits for long gets a separate thread, and its neighbours keep theirs") {
     Cell one(10ms), two(10ms);
     Cell slow(10ms, [] {
