@@ -151,6 +151,7 @@ SharedTick::Next PeriodicExecutionContext::Worker::step(PeriodicExecutionContext
             wait_for_tick(*current);
         if (current->interrupted()) return SharedTick::Next::tick;
         context.invokeWorker();
+        current->end_cycle();
         has_rested = false;
         return SharedTick::Next::tick;
     }
