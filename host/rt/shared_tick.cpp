@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rt/shared_tick.hpp"
 
+#include "host/process/start_thread.hpp"
 #include "host/rt/tick_thread.hpp"
 
 #include <atomic>
@@ -12,7 +13,12 @@ std::shared_ptr<SharedTick> SharedTick::start(const SharedTickOptions& options, 
     tick->rests_ = first == Next::rest;
     TickThreads& threads = TickThreads::all();
     const TickThread::Lock all(threads.mutex);
-    threads.add(tick, options);
+    try {
+        threads.add(tick, options);
+    } catch (const process::NotStarted&) {
+        tick->thread_.reset(); // has the tick as its member
+        throw;
+    }
     threads.ensure_watch();
     return tick;
 }
