@@ -11,6 +11,7 @@
 #include <string>
 #include <sys/syscall.h>
 #include <unistd.h>
+#include <utility>
 
 namespace tandem::rt {
 namespace {
@@ -146,16 +147,17 @@ std::uint64_t PeriodicTick::wait() {
 }
 
 void PeriodicTick::tick_at(std::int64_t planned) {
-    if (const std::int64_t missed = started_ ? (planned - next_) / period_ - 1 : 0; missed > 0) {
-        count(slot_->overruns);
-        count(slot_->skipped, static_cast<std::uint64_t>(missed));
-    }
+    const std::int64_t missed = started_ ? (planned - next_) / period_ - 1 : 0;
+    if (std::exchange(overran_, false) || missed > 0) count(slot_->overruns);
+    if (missed > 0) count(slot_->skipped, static_cast<std::uint64_t>(missed));
     started_ = true;
     next_ = planned;
     note_lateness(monotonic_ns() - planned);
     note_due(interrupted() ? 0 : planned + period_);
     if (!interrupted()) count(slot_->ticks);
 }
+
+void PeriodicTick::end_cycle() { overran_ = started_ && monotonic_ns() >= next_ + period_; }
 
 TickStats PeriodicTick::stats() const {
     const auto value = [](auto& counter) { return std::atomic_ref(counter).load(std::memory_order_relaxed); };

@@ -42,7 +42,7 @@ struct TickOptions {
 /// Counters of a PeriodicTick since its construction.
 struct TickStats {
     std::uint64_t ticks;           ///< calls of wait() that ended with a tick
-    std::uint64_t overruns;        ///< ticks that were already due when wait() was called
+    std::uint64_t overruns;        ///< ticks that were already due when wait() or end_cycle() was called
     std::uint64_t skipped;         ///< periods without a tick, because the work before took too long
     std::int64_t lateness_ns_last; ///< from the planned time to the return of wait()
     std::int64_t lateness_ns_max;
@@ -62,6 +62,8 @@ class PeriodicTick {
 
     /// Counts a tick that another object has waited for, planned for this time of CLOCK_MONOTONIC in ns. [tick-thread]
     void tick_at(std::int64_t planned);
+    /// Reports that the cycle after tick_at() has ended: if the next tick is already due, it is an overrun. [tick-thread]
+    void end_cycle();
 
     /// Reports that a cycle begins without wait(): the first cycle after rest(). [tick-thread]
     void begin_cycle();
@@ -92,7 +94,7 @@ class PeriodicTick {
     const std::int64_t phase_; // from grid_origin; all times in ns
     const bool aligned_;
     TickPolling polling_;
-    bool started_ = false;
+    bool started_ = false, overran_ = false;
     std::int64_t next_ = 0;                     // planned time of the coming, then of the current tick
     std::atomic<std::uint32_t> interrupted_{0}; // a futex
     const OwnTickSlot slot_;

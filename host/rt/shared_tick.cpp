@@ -13,7 +13,13 @@ std::shared_ptr<SharedTick> SharedTick::start(const SharedTickOptions& options, 
     tick->rests_ = first == Next::rest;
     TickThreads& threads = TickThreads::all();
     const TickThread::Lock all(threads.mutex);
-    threads.add(tick, options);
+    try {
+        threads.add(tick, options);
+    } catch (const process::NotStarted&) {
+        tick->thread_.reset(); // has the tick as its member
+        throw;
+    }
+    threads.ensure_watch();
     return tick;
 }
 
@@ -33,22 +39,11 @@ void SharedTick::wake() {
 void SharedTick::change(const SharedTickOptions& options) {
     TickThreads& threads = TickThreads::all();
     const TickThread::Lock all(threads.mutex);
-    const auto former = thread_;
-    const TickThread::Lock lock(former->mutex);
-    next_options_.reset();
-    if (left_ || are_equal(former->options, options)) return;
-    if (former->running == this) {
+    {
+        const TickThread::Lock lock(thread_->mutex);
         next_options_ = options;
-        return;
     }
-    try {
-        threads.add(shared_from_this(), options);
-    } catch (const process::NotStarted& error) {
-        thread_ = former;
-        work_.log(work_.name + " keeps its former period: " + error.what());
-        return;
-    }
-    threads.remove(*this, former);
+    threads.apply_change(shared_from_this());
 }
 
 bool SharedTick::leave(std::chrono::nanoseconds timeout) {
@@ -62,7 +57,8 @@ bool SharedTick::leave(std::chrono::nanoseconds timeout) {
     const bool is_inside = thread->id == std::this_thread::get_id();
     if (is_inside) return true;
     if (!thread->changed.wait_for(lock, timeout, [&] { return thread->running != this; })) return false;
-    if (!thread->members.empty() || !thread->thread.joinable()) return true;
+    // Another tick that has left may still be in its cycle, and may hang. Its thread then ends without being awaited.
+    if (!thread->members.empty() || thread->running != nullptr || !thread->thread.joinable()) return true;
     std::thread ending = std::move(thread->thread);
     lock.unlock();
     ending.join();

@@ -39,9 +39,14 @@ bool TickThread::rests() const {
     return std::all_of(members.begin(), members.end(), [](const auto& each) { return each->rests_; });
 }
 
+bool TickThread::delays_members() const {
+    return members.size() > 1 || (running != nullptr && !members.empty() && members.front().get() != running);
+}
+
 void TickThread::add(const std::shared_ptr<SharedTick>& tick) {
     members.push_back(tick);
     tick->thread_ = shared_from_this();
+    has_woken = has_woken || (tick->rests_ && tick->woken_);
     changed.notify_all();
 }
 
@@ -58,7 +63,7 @@ bool TickThread::hangs(std::int64_t now) {
     const std::int64_t limit = std::clamp<std::int64_t>(options.period.count(), shortest_hang, longest_hang);
     const bool is_second_look = running != nullptr && looked_at == running_since;
     looked_at = running != nullptr ? running_since : 0;
-    return is_second_look && members.size() > 1 && now - running_since > limit;
+    return is_second_look && delays_members() && now - running_since > limit;
 }
 
 void TickThread::plan_next() {
@@ -118,11 +123,13 @@ void TickThread::run_cycle(Lock& lock, const std::shared_ptr<SharedTick>& tick) 
     const bool is_slow = !tick->left_ && members.size() > 1 && takes_too_long(*tick, took);
     if (!is_slow && !tick->next_options_) return;
     lock.unlock();
-    if (is_slow) {
-        const Lock all(TickThreads::all().mutex);
-        TickThreads::all().separate(tick, took);
-    } else {
-        tick->change(*tick->next_options_);
+    {
+        TickThreads& threads = TickThreads::all();
+        const Lock all(threads.mutex);
+        if (is_slow)
+            threads.separate(tick, took);
+        else
+            threads.apply_change(tick);
     }
     lock.lock();
 }

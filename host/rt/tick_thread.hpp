@@ -20,6 +20,8 @@ struct TickThread : std::enable_shared_from_this<TickThread> {
     /// Starts the thread. Throws process::NotStarted.
     void start();
     bool rests() const;
+    /// Returns whether a member may wait for the cycle of another one, or of one that has left.
+    bool delays_members() const;
     void add(const std::shared_ptr<SharedTick>& tick);
     void remove(const SharedTick& tick);
     /// Returns true at the second look that finds the same cycle running for longer than any may delay the others.
@@ -53,14 +55,16 @@ class TickThreads {
     /// Never deleted: a thread that hangs in a cycle may outlive static objects.
     static TickThreads& all();
 
-    // The next four require the mutex.
+    // The next five require the mutex.
 
     /// Adds the tick to a thread with these options. Throws process::NotStarted.
     void add(const std::shared_ptr<SharedTick>& tick, const SharedTickOptions& options);
     /// Ends the tick's membership in the thread, whose mutex the caller holds.
     void remove(const SharedTick& tick, const std::shared_ptr<TickThread>& thread);
-    /// Looks for cycles that hang, as long as threads have several members that do not rest.
+    /// Looks for cycles that hang, as long as threads may delay members that do not rest.
     void ensure_watch();
+    /// Moves the tick to a thread with its next options, if it has any. While its cycle runs, this waits for the cycle's end.
+    void apply_change(const std::shared_ptr<SharedTick>& tick);
     /// Gives the tick a thread that no other tick joins, unless it has left or no thread can be started.
     void separate(const std::shared_ptr<SharedTick>& tick, std::int64_t took);
 

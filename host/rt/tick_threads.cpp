@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <tuple>
+#include <utility>
 
 namespace tandem::rt {
 namespace {
@@ -55,7 +56,6 @@ void TickThreads::add(const std::shared_ptr<SharedTick>& tick, const SharedTickO
         thread->start();
         threads_.push_back(thread);
     }
-    ensure_watch();
 }
 
 void TickThreads::remove(const SharedTick& tick, const std::shared_ptr<TickThread>& thread) {
@@ -63,11 +63,31 @@ void TickThreads::remove(const SharedTick& tick, const std::shared_ptr<TickThrea
     if (thread->members.empty()) std::erase(threads_, thread);
 }
 
+void TickThreads::apply_change(const std::shared_ptr<SharedTick>& tick) {
+    const auto former = tick->thread_;
+    {
+        const TickThread::Lock lock(former->mutex);
+        if (former->running == tick.get()) return; // run_cycle() calls this again
+        const auto options = std::exchange(tick->next_options_, std::nullopt);
+        if (!options || tick->left_ || are_equal(former->options, *options)) return;
+        try {
+            add(tick, *options);
+        } catch (const process::NotStarted& error) {
+            tick->thread_ = former;
+            tick->work_.log(tick->work_.name + " keeps its former period: " + error.what());
+            return;
+        }
+        remove(*tick, former);
+    }
+    ensure_watch(); // takes the mutex of each thread
+}
+
 void TickThreads::separate(const std::shared_ptr<SharedTick>& tick, std::int64_t took) {
     const auto former = tick->thread_;
     {
         const TickThread::Lock lock(former->mutex);
-        if (tick->left_ || former->members.size() < 2) return;
+        // Another thread may have moved it meanwhile.
+        if (tick->left_ || former->running == tick.get() || former->members.size() < 2) return;
         const auto separate = std::make_shared<TickThread>(former->options);
         separate->add(tick);
         try {
@@ -89,7 +109,7 @@ void TickThreads::ensure_watch() {
 bool TickThreads::has_work_to_watch() const {
     return std::any_of(threads_.begin(), threads_.end(), [](const auto& each) {
         const TickThread::Lock lock(each->mutex);
-        return each->members.size() > 1 && (each->has_woken || !each->rests());
+        return each->delays_members() && (each->has_woken || !each->rests());
     });
 }
 
@@ -112,7 +132,7 @@ void TickThreads::rescue_neighbours(std::shared_ptr<TickThread>& thread) {
         const TickThread::Lock lock(hanging->mutex);
         if (!hanging->hangs(monotonic_ns())) return;
         const auto others = std::make_shared<TickThread>(hanging->options);
-        others->has_woken = hanging->has_woken;
+        others->has_woken = true; // the round of the hanging cycle has not reached all members
         std::vector<std::shared_ptr<SharedTick>> kept;
         for (const auto& each : hanging->members)
             (each.get() == hanging->running ? kept : others->members).push_back(each);

@@ -13,13 +13,12 @@ inline bool opros_to_rtm(const Session& session) { return session.bench_case().d
 
 /// The file in that folder into which a component writes its samples.
 std::filesystem::path samples_file(const std::filesystem::path& folder);
+/// Returns the samples in that file.
+std::vector<double> doubles_in(const std::filesystem::path& file);
 
 /// Whether the case is the ratio to a floor in alternation: its samples are the ratios of windows, not a number for a window in
 /// which a host lost its core.
 inline bool is_paired(const Session& session) { return session.bench_case().unit == Unit::ratio; }
-/// The samples in that file.
-std::vector<double> doubles_in(const std::filesystem::path& file);
-
 /// Whether it is the ratio of a tail to that of the minimal ring in alternation: its samples are those of both, the latter with a minus.
 inline bool is_tail(const Session& session) { return session.bench_case().operation.starts_with("tail-"); }
 /// The shared memory of a paired case's floor, which both hosts map; empty if the case is none.

@@ -40,9 +40,8 @@ class StreamEndpoint {
         for (;;) {
             const auto record = in_.read();
             if (!record) {
-                if (is_short)
-                    shm::Processor::
-                        pause(); // leaves the writer its cache line; the minimal ring's reader does the same
+                // Leaves the writer its cache line; the minimal ring's reader does the same.
+                if (is_short) shm::Processor::pause();
                 continue;
             }
             // Before the content is used: a large message is used longer than the credit travels.

@@ -164,6 +164,21 @@ TEST_CASE("ticks that are interrupted one after the other do not wait for their 
     CHECK(clock.wait() < 50);
 }
 
+TEST_CASE("a tick that another object has waited for overruns if its cycle ends after the next one") {
+    PeriodicTick tick({.period = 1h});
+    constexpr std::int64_t hour = std::chrono::nanoseconds(1h).count();
+    const std::int64_t now = tandem::rt::monotonic_ns();
+    tick.tick_at(now - 2 * hour);
+    tick.end_cycle();
+    tick.tick_at(now - hour / 2);
+    CHECK(tick.stats().overruns == 1);
+    CHECK(tick.stats().skipped == 0);
+    tick.end_cycle(); // half an hour before the next tick
+    tick.tick_at(now);
+    CHECK(tick.stats().overruns == 1);
+    CHECK(tick.stats().ticks == 3);
+}
+
 TEST_CASE("a period of zero is refused") {
     CHECK_THROWS_AS(PeriodicTick({.period = 0ns}), std::invalid_argument);
 }

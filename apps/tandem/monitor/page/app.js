@@ -22,8 +22,17 @@ const connection = new Connection(), control = new ControlPanel(connection), sto
 const values = new Values(), plots = new PlotsPanel(store), chair = new Chair(connection, store);
 
 /** The address of the page contains the shown view or the chosen port, so that it survives a reload and works as a bookmark. */
+function keptPlace() {
+  try {
+    return decodeURIComponent(location.hash.slice(1));
+  } catch (error) {
+    if (error instanceof URIError) return ''; // an address that somebody has typed
+    throw error;
+  }
+}
+
 function keepPlace(place) {
-  if (place !== decodeURIComponent(location.hash.slice(1))) history.replaceState(null, '', `#${encodeURIComponent(place)}`);
+  if (place !== keptPlace()) history.replaceState(null, '', `#${encodeURIComponent(place)}`);
 }
 
 /** Plots a port. */
@@ -167,7 +176,7 @@ function connect() {
 find('filter').addEventListener('input', () => {
   if (newest !== null) ports.show(newest.links);
 });
-const wanted = decodeURIComponent(location.hash.slice(1));
+const wanted = keptPlace();
 if (wanted.includes('/')) choose(wanted);
 else tabs.show(wanted);
 connect();

@@ -42,6 +42,7 @@ bool Executor::start_in_shared_thread() {
         const crash::CallbackPublication publication(trigger_->callback_text());
         tick->tick_at(planned);
         run_cycle();
+        tick->end_cycle();
         return rt::SharedTick::Next::tick;
     };
     rt::ThreadOptions thread = thread_options();

@@ -22,7 +22,8 @@ struct ExecutorOptions {
 };
 
 /// Runs the cycles of one component, or of several components with the same period, when their trigger says so: in a
-/// separate thread, or in one that it shares with other executors (rt::SharedTick). [main-thread] for all functions. The components must outlive it.
+/// separate thread, or in one that it shares with other executors (rt::SharedTick). [main-thread] for all functions. The
+/// components must outlive it.
 class Executor {
   public:
     /// `components` must not be empty. The profile of the first one determines the trigger and the scheduling.

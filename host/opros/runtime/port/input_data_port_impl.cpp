@@ -20,6 +20,7 @@ constexpr unsigned empty_pops_per_rehearsal = 4096;
 /// Returns where a value lies. Of the elements of a vector of numbers, it has the first two lines.
 tandem::rt::CellRing::Parts parts_of(opros_any& value) {
     opros_any::holder_base* const held = value.held();
+    if (held == nullptr) return {}; // a port of the component may accept no value
     const auto* const elements = static_cast<const std::byte*>(held->elements().begin);
     return {&value, held, elements, elements + tandem::rt::CellRing::line};
 }
@@ -188,7 +189,7 @@ void InputDataPortImpl::clear() {
     for (DataPortSource* source : sources_)
         for (int i = 0; i < max_values_per_poll && source->take(nullptr); ++i) continue;
     if (ring_)
-        for (int i = 0; i < max_values_per_poll && ring_->take(); ++i) continue;
+        for (std::size_t i = 0; i < ring_->depth() && ring_->take(); ++i) continue; // another thread may push
     queue_.clear();
     update_hints();
 }

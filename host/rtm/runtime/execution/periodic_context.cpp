@@ -121,11 +121,14 @@ RTC::ReturnCode_t PeriodicExecutionContext::onStarted() {
         return started->step(*this, [planned](PeriodicTick& tick) { tick.tick_at(planned); });
     };
     const auto write_log = [this](const std::string& line) { RTC_INFO(("%s", line.c_str())); };
+    const auto first = started->has_rested ? SharedTick::Next::rest : SharedTick::Next::tick;
     std::lock_guard<std::mutex> lock(m_workerMutex);
-    started->shared_tick = SharedTick::start(
-        sharedTickOptions(getPeriod(), m_phase), {m_properties.getProperty("tick.owner"), cycle, write_log},
-        started->has_rested ? SharedTick::Next::rest : SharedTick::Next::tick);
+    started->shared_tick =
+        SharedTick::start(sharedTickOptions(getPeriod(), m_phase),
+                          {m_properties.getProperty("tick.owner"), cycle, write_log}, first);
     m_worker = started;
+    // A transition that was requested before m_worker was set has woken nobody.
+    if (first == SharedTick::Next::rest && hasWork()) started->shared_tick->wake();
     return RTC::RTC_OK;
 }
 
@@ -148,6 +151,7 @@ SharedTick::Next PeriodicExecutionContext::Worker::step(PeriodicExecutionContext
             wait_for_tick(*current);
         if (current->interrupted()) return SharedTick::Next::tick;
         context.invokeWorker();
+        current->end_cycle();
         has_rested = false;
         return SharedTick::Next::tick;
     }

@@ -237,6 +237,10 @@ ReturnCode_t PortBase::establishConnection(ConnectorProfile& profile) {
             return step();
         } catch (const std::system_error& e) { // a connection may need a thread
             return refuse(RTC_ERROR, std::string(getName()) + ": " + e.what());
+        } catch (const CORBA::SystemException& e) { // it may ask a port of another process
+            return refuse(RTC_ERROR,
+                          std::string(getName()) +
+                              ": a port of the connection cannot be reached: " + describe_exception(e));
         }
     };
     const ReturnCode_t published = attempt([&] { return publishInterfaces(profile); });

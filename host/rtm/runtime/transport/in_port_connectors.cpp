@@ -97,6 +97,7 @@ DataPortStatus InPortPushConnector::disconnect() {
 const ServantHolder& InPortPushConnector::offer_ring(const PortBase& port) {
     ring_servant_ = std::make_unique<ServantHolder>(create_ring_servant(receiver_, m_littleEndian), &port);
     m_takesArrived = true;
+    m_inPlace = nullptr; // reading in place would not look for messages in the ring
     return *ring_servant_;
 }
 

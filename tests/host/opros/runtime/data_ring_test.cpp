@@ -114,6 +114,23 @@ TEST_CASE("a rehearsal of a pop takes nothing from a ring") {
     for (int i = 0; i < 10'000; ++i) CHECK(in.pop() == nullptr); // rehearses now and then
 }
 
+TEST_CASE("reset empties a ring of any depth, and a port may accept an empty value") {
+    struct Tolerant : InputDataPort<int> {
+        using InputDataPort<int>::InputDataPort;
+        bool checkType(opros_any&) override { return true; }
+    };
+    Tolerant port(OPROS_FIFO, 5000);
+    int value = 1;
+    for (int i = 0; i < 5000; ++i) port.push(value);
+    port.reset();
+    CHECK(port.getSize() == 0);
+    opros_any nothing;
+    CHECK(port.InputDataPort<int>::push(nothing) == OPROS_SUCCESS);
+    const std::unique_ptr<opros_any> popped{port.pop()};
+    REQUIRE(popped);
+    CHECK(popped->empty());
+}
+
 TEST_CASE("a push to several readers copies the value once for each, and reading copies it not at all") {
     constexpr std::size_t readers = 16;
     OutputDataPort<Counted> out;

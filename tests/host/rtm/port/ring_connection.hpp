@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A connection through shared memory, both of whose ends are in the test's process.
 #pragma once
+#include "host/rtm/runtime/transport/buffer/port_buffer.hpp"
 #include "host/rtm/runtime/transport/connection_profile.hpp"
 #include "host/rtm/runtime/transport/in_port_connectors.hpp"
 #include "host/rtm/runtime/transport/ring/message_ring.hpp"
@@ -10,7 +11,6 @@
 #include <atomic>
 #include <filesystem>
 #include <mutex>
-#include <rtm/CdrRingBuffer.h>
 #include <rtm/InPort.h>
 
 namespace testing {
@@ -91,7 +91,7 @@ struct RingConnection {
         return numbers;
     }
     ManagerFixture fixture;
-    RTC::CdrRingBuffer buffer;
+    RTC::PortBuffer buffer; // as an InPort has it
     RingValue value{};
     RingPort port{value};
     std::shared_ptr<CountedCalls> calls = std::make_shared<CountedCalls>();
