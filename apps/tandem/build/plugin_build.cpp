@@ -34,6 +34,8 @@
 namespace tandem::command {
 namespace {
 
+namespace fs = std::filesystem;
+
 /// The plugin to build: the component of a model in a folder.
 struct Plugin {
     std::string model, name;
