@@ -6,6 +6,7 @@
 #include "tests/host/rtm/remote_host.hpp"
 #include <fcntl.h>
 #include <filesystem>
+#include <rtm/CORBA_RTCUtil.h>
 #include <unistd.h>
 
 using namespace testing;
