@@ -3,6 +3,7 @@
 #include "apps/tandem/build/include_scan.hpp"
 #include "apps/tandem/build/packages/header_packages.hpp"
 #include "apps/tandem/build/packages/installed_library.hpp"
+#include "apps/tandem/build/project/cmake_projects.hpp"
 #include "apps/tandem/build/remedy.hpp"
 #include "apps/tandem/build/select_sources.hpp"
 #include "tests/host/opros/engine/folder.hpp"
@@ -134,9 +135,11 @@ TEST_CASE("--exclude with the path of a source leaves a file of the same name in
     folder.write("Comp/flag.cpp", entry);
     folder.write("Comp/src/flag.cpp", entry);
     const auto selected = [&](const std::string& excluded) {
+        CMakeProjects projects("", 60);
         std::vector<std::string> names;
         for (const auto& file :
-             select_sources(folder.path() / "Comp", {"getComponent"}, {{}, {excluded}}).sources)
+             select_sources(folder.path() / "Comp", {"getComponent"}, {{}, {excluded}}, {"Comp", projects})
+                 .sources)
             names.push_back(file.lexically_relative(fs::canonical(folder.path() / "Comp")));
         return names;
     };
