@@ -43,6 +43,10 @@ void write_opros(const Folder& folder, const std::string& name, const std::strin
     folder.write("shelf/" + name + "/" + name + ".cpp",
                  fmt::format("#include <Component.h>\n#include <csignal>\n"
                              "struct {0} : Component {{\n"
+                             "  ReturnType onInitialize() override {{ return OPROS_SUCCESS; }}\n"
+                             "  ReturnType onStart() override {{ return OPROS_SUCCESS; }}\n"
+                             "  ReturnType onStop() override {{ return OPROS_SUCCESS; }}\n"
+                             "  ReturnType onDestroy() override {{ return OPROS_SUCCESS; }}\n"
                              "  ReturnType onExecute() override {{ {1} return OPROS_SUCCESS; }}\n}};\n"
                              "extern \"C\" Component* getComponent() {{ return new {0}; }}\n"
                              "extern \"C\" void releaseComponent(Component* c) {{ delete c; }}\n",
