@@ -130,7 +130,7 @@ constexpr Bound bounds[] = {
     {"tandem/path/rtm-to-opros/48/sender", 300, 30, 8, 0, 0},
     {"tandem/path/rtm-to-opros/48/receiver", 360, 40, 10, 0, 1},
     {"tandem/path/rtm-to-opros/8/caller", 1460, 145, 35, 0, 10},
-    {"tandem/path/rtm-to-opros/8/worker", 850, 95, 20, 0, 12},
+    {"tandem/path/rtm-to-opros/8/worker", 980, 98, 20, 0, 12},
     {"tandem/path/inside-opros/48/sender", 340, 35, 11, 0, 0},
     {"tandem/path/inside-opros/48/receiver", 225, 27, 6, 0, 1},
     {"tandem/path/inside-opros/8/caller", 48, 10, 4, 0, 0},

@@ -8,17 +8,20 @@ inline constexpr char missing_package[] = "-- tandem: no package ";
 
 /// CMake code that runs before project(). It lets a project configure without what only some of its targets or only
 /// builds need. CMake keeps a replaced command under its name with a leading underscore.
-inline constexpr char tolerant_project[] = R"(cmake_policy(VERSION 3.16)
-get_property(defined GLOBAL PROPERTY TANDEM_TOLERANT)
+inline constexpr char tolerant_project[] = R"(get_property(defined GLOBAL PROPERTY TANDEM_TOLERANT)
 if(defined)
   return()
 endif()
 set_property(GLOBAL PROPERTY TANDEM_TOLERANT ON)
+cmake_policy(PUSH) # those of the project must not change
+cmake_policy(VERSION 3.16)
 find_package(PkgConfig QUIET)
 macro(tandem_note_missing prefix) # further: the name of the package, or its modules
   string(TOUPPER ${prefix} tandem_upper)
   if("REQUIRED" IN_LIST tandem_arguments AND NOT ${prefix}_FOUND AND NOT ${tandem_upper}_FOUND)
-    message(STATUS "tandem: no package ${ARGN}")
+    set(tandem_names ${ARGN})
+    list(JOIN tandem_names " " tandem_names)
+    message(STATUS "tandem: no package ${tandem_names}")
   endif()
 endmacro()
 macro(find_package)
@@ -30,14 +33,14 @@ macro(find_package)
     tandem_note_missing(${ARGV0} ${ARGV0})
   endif()
 endmacro()
-macro(pkg_check_modules)
+macro(pkg_check_modules prefix)
   set(tandem_modules ${ARGN})
   list(REMOVE_ITEM tandem_modules REQUIRED QUIET IMPORTED_TARGET GLOBAL)
   set(tandem_arguments ${ARGV})
   list(REMOVE_ITEM tandem_arguments REQUIRED)
   _pkg_check_modules(${tandem_arguments})
   set(tandem_arguments ${ARGV})
-  tandem_note_missing(${ARGV0} ${tandem_modules})
+  tandem_note_missing(${prefix} ${tandem_modules})
 endmacro()
 function(add_dependencies) # on targets of documentation or IDL that do not exist
 endfunction()
@@ -46,6 +49,7 @@ function(message)
   list(TRANSFORM arguments REPLACE "^FATAL_ERROR$" WARNING)
   _message(${arguments} "") # also without text
 endfunction()
+cmake_policy(POP)
 )";
 
 } // namespace tandem::command

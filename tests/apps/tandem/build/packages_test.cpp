@@ -129,7 +129,7 @@ TEST_CASE("a header of the component does not add the pkg-config module of a pac
     CHECK(modules() == std::set<std::string>{"ode"});
 }
 
-TEST_CASE("--exclude with the path of a source leaves a file of the same name in another folder") {
+TEST_CASE("the path of a source in --exclude leaves a file of the same name in another folder") {
     const Folder folder;
     const std::string entry = "Component* getComponent() { return 0; }\n";
     folder.write("Comp/flag.cpp", entry);

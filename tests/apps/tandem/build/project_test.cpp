@@ -151,11 +151,12 @@ TEST_CASE("a standard is that of the project, also by the name of its draft, and
     folder.write("Arm.cpp", module_text);
     for (const auto& [option, standard] :
          {std::pair("-std=c++98", 0), {"-std=c++0x", 11}, {"-std=c++1z", 17}, {"-std=gnu++20", 20}}) {
-        INFO(option);
         folder.write("CMakeLists.txt", std::string("project(arms CXX)\nadd_compile_options(") + option +
                                            ")\nadd_library(Arm MODULE Arm.cpp)\n");
         CMakeProjects projects("", 60);
-        CHECK(select(folder.path(), projects).target.standard == standard);
+        const auto target = select(folder.path(), projects).target;
+        INFO(option << ", " << target.name << " " << projects.problem());
+        CHECK(target.standard == standard);
     }
 }
 
