@@ -60,14 +60,12 @@ bool TickPolling::messages_cross(std::int64_t now) {
     return used_ != 0 && now - used_ <= std::max(patience_ns, patience_periods * period_);
 }
 
-bool TickPolling::take_share() {
+void TickPolling::take_share() {
     const std::int64_t share = spin_ * million / period_;
-    if (share_sum.fetch_add(share) + share > share_limit) {
+    if (share_sum.fetch_add(share) + share <= share_limit)
+        share_ = share;
+    else
         share_sum.fetch_sub(share);
-        return false;
-    }
-    share_ = share;
-    return true;
 }
 
 /// The thread also polls for the part of the time for a wake-up that its wake-up did not take. Only a later tick that

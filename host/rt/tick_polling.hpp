@@ -33,7 +33,7 @@ class TickPolling {
 
   private:
     bool messages_cross(std::int64_t now);
-    bool take_share();
+    void take_share();
     void update_share(std::int64_t now);
     void give_share_back();
 

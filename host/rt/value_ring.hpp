@@ -103,7 +103,7 @@ class CellRing {
     static constexpr unsigned index_bits = 20, position_shift = index_bits + 1;
     static constexpr std::uint64_t unread_bit = std::uint64_t{1} << index_bits;
 
-    /// In a cache line of its own, because the writer fills one while the reader polls the next.
+    /// Shares its cache line with no other cell, because the writer fills one while the reader polls the next.
     struct alignas(line) Cell {
         std::atomic<std::uint64_t> word;
         std::array<std::atomic<const void*>, std::tuple_size_v<Parts>> parts;

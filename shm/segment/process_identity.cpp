@@ -31,7 +31,7 @@ struct ProcessStatus {
     std::uint64_t threads = 0, start_ticks = 0;
 };
 
-/// Reads the file of the main thread: in that of the process, qemu-user shows a process a start time of its own.
+/// Reads the file of the main thread, because qemu-user makes up the start time in the file of the process itself.
 std::optional<ProcessStatus> read_status(std::uint32_t pid) {
     std::array<char, 48> path; // without an allocation
     std::snprintf(path.data(), path.size(), "/proc/%u/task/%u/stat", pid, pid);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The least that a ring can be: one writer, one reader, slots of one size, an index on a cache line of its own
-// at each end, the peer's index cached. It has no policies, counters, checks or lengths: the difference to
+// The least that a ring can be: one writer, one reader, slots of one size, the index of each end on a
+// separate cache line, the peer's index cached. It has no policies, counters, checks or lengths: the difference to
 // Tandem's ring is what those cost.
 #pragma once
 #include "apps/bench/harness/case.hpp"

@@ -17,11 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 using Paths = std::vector<fs::path>;
 
-bool is_file(const fs::path& file) {
-    std::error_code ignored;
-    return fs::is_regular_file(file, ignored);
-}
-
 // Returns the names in #include lines, in all branches of the preprocessor.
 std::vector<std::string> included_names(const fs::path& file) {
     std::istringstream stream(strip_comments(read_text(file)));

@@ -39,10 +39,9 @@ bool matches(const fs::path& file, const fs::path& folder, const std::string& pa
 Paths named_sources(const fs::path& folder, const std::vector<std::string>& names) {
     Paths sources;
     for (const auto& name : names) {
-        std::error_code ignored;
         const auto here = fs::absolute(name).lexically_normal(), there = (folder / name).lexically_normal();
-        if (fs::is_regular_file(here, ignored) || fs::is_regular_file(there, ignored)) {
-            sources.push_back(fs::is_regular_file(here, ignored) ? here : there);
+        if (is_file(here) || is_file(there)) {
+            sources.push_back(is_file(here) ? here : there);
             continue;
         }
         const auto before = sources.size();

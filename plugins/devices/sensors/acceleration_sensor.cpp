@@ -9,7 +9,7 @@ namespace {
 double acceleration(int channel, double seconds) {
     return channel % 3 == 2 ? 9.81 : 0.5 * tandem::devices::sine(channel, seconds);
 }
-/// The same for OPRoS v2, where each channel has three axes.
+/// Returns the acceleration of a channel of OPRoS v2, which has three axes; m/s^2.
 OPRoS::AccelerationSensorData accelerations(int channel, double seconds) {
     const auto axis = [&](int i) { return acceleration(3 * channel + i, seconds); };
     return {axis(0), axis(1), axis(2)};

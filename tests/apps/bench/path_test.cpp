@@ -86,7 +86,7 @@ TEST_CASE("Allocations, locked instructions and system calls between two marks a
     PathTrace trace = PathRecorder(tracer).record_sender();
     const PathCounts counts = trace.counts();
     CHECK(counts.allocations == 1);
-    CHECK(counts.locked >= 2); // malloc() has none of its own in a process with one thread
+    CHECK(counts.locked >= 2); // malloc() itself executes none in a process with one thread
     CHECK(counts.system_calls == 1);
     CHECK(counts.code_pages >= 2); // this program and the C library
     CHECK(counts.code_lines >= counts.code_pages);

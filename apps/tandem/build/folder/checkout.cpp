@@ -50,10 +50,7 @@ Paths ancestors_in_checkout(const fs::path& folder) {
 }
 
 bool has_upstream_api(const fs::path& folder) {
-    const auto has = [&](const char* file) {
-        std::error_code ignored;
-        return fs::is_regular_file(folder / file, ignored);
-    };
+    const auto has = [&](const char* file) { return is_file(folder / file); };
     return has("Component.h") || has("OPRoSTypes.h") || has("rtm/Manager.h") ||
            has("DataFlowComponentBase.h");
 }
@@ -101,7 +98,7 @@ Paths folders_with(const fs::path& component_folder, const std::string& header) 
                 possible.push_back(dir);
     Paths found;
     for (const auto& dir : possible)
-        if (fs::is_regular_file(dir / header, ignored)) found.push_back(dir);
+        if (is_file(dir / header)) found.push_back(dir);
     return found;
 }
 

@@ -27,7 +27,7 @@ void add_source(const fs::path& folder, const std::string& word, std::vector<fs:
             possible.push_back(fs::path(file).replace_extension(ending));
     std::error_code ignored;
     for (const auto& each : possible)
-        if (is_source(each) && fs::is_regular_file(each, ignored)) {
+        if (is_source(each) && is_file(each)) {
             sources.push_back(fs::weakly_canonical(each, ignored));
             return;
         }

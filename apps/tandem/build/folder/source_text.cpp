@@ -105,6 +105,11 @@ std::string idl_of_header(const fs::path& header) {
     return base + ".idl";
 }
 
+bool is_file(const fs::path& path) {
+    std::error_code ignored;
+    return fs::is_regular_file(path, ignored);
+}
+
 std::vector<fs::path> list_files(const fs::path& folder) {
     std::vector<fs::path> files;
     std::error_code ignored;

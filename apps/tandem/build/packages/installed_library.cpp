@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/build/packages/installed_library.hpp"
+#include "apps/tandem/build/folder/source_text.hpp"
 #include "apps/tandem/build/packages/header_packages.hpp"
 
 #include <fstream>
@@ -10,11 +11,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Paths = std::vector<fs::path>;
-
-bool is_file(const fs::path& file) {
-    std::error_code ignored;
-    return fs::is_regular_file(file, ignored);
-}
 
 // Returns the folders that the compiler searches.
 Paths include_folders(const fs::path& root) {

@@ -127,7 +127,7 @@ class Reader {
         for (const auto& source : member(part, "sources")) {
             std::error_code ignored;
             const auto file = fs::weakly_canonical(fs::path(top_) / source.value("path", ""), ignored);
-            if (is_source(file) && source.contains("compileGroupIndex") && fs::is_regular_file(file, ignored))
+            if (is_source(file) && source.contains("compileGroupIndex") && is_file(file))
                 add_new(target.sources, file);
         }
     }
@@ -168,7 +168,7 @@ class Reader {
                     add_new(target.library_dirs, fs::path(word.substr(2)));
                 else if (word.rfind("-l", 0) == 0)
                     add_new(target.libraries, word.substr(2));
-                else if (word[0] == '/' && fs::is_regular_file(word, ignored))
+                else if (word[0] == '/' && is_file(word))
                     add_new(target.libraries, word);
             }
     }

@@ -17,7 +17,7 @@ std::span<const std::byte> bytes_of_number(const double& value) {
     return std::as_bytes(std::span(&value, 1));
 }
 
-/// A host in a process of its own that joins a side, publishes its model without ports, and sleeps until it is killed.
+/// A host in a separate process that joins a side, publishes its model without ports, and sleeps until it is killed.
 Child sleeping_host(const std::string& link, Side side, const std::string& model) {
     Child child([=] {
         const auto segment = Segment::join(link, side, small());
