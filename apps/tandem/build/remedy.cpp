@@ -132,7 +132,7 @@ std::string for_header(const std::string& header, const BuildFacts& facts) {
 
 // `symbol`: a function's name and parameters, as the linker prints them.
 std::string for_symbol(const std::string& symbol, const BuildFacts& facts) {
-    const std::string unknown =
+    std::string unknown =
         "add the library that defines it with -l NAME, or the source file with --source FILE";
     const auto* found = find_library_of_symbol(symbol);
     if (!found) return unknown;
@@ -140,7 +140,7 @@ std::string for_symbol(const std::string& symbol, const BuildFacts& facts) {
     const auto& used = module.empty() ? facts.libraries : facts.pkg_config;
     const std::string name = module.empty() ? found->library : module;
     const auto package = module.empty() ? find_package_of_library(name) : find_package_of_module(name);
-    const std::string option = (module.empty() ? "-l " : "--pkg-config ") + name;
+    std::string option = (module.empty() ? "-l " : "--pkg-config ") + name;
     if (!package.empty() && !is_installed(package, facts))
         return fmt::format("apt install {}, and add {}", package, option);
     if (std::find(used.begin(), used.end(), name) == used.end()) return option;

@@ -136,7 +136,8 @@ void apply_source_lists(const fs::path& folder, const Paths& entries, SelectedSo
     if (!listed.empty()) use_list(listed, names_of(project_files, folder), selected);
 }
 
-bool find_target(const Paths& entries, const fs::path& folder, ProjectSearch search, ProjectTarget& target) {
+bool find_target(const Paths& entries, const fs::path& folder, const ProjectSearch& search,
+                 ProjectTarget& target) {
     auto found = search.projects.find_target(folder, entries, search.name);
     if (found) target = std::move(*found);
     return found.has_value();
@@ -145,7 +146,7 @@ bool find_target(const Paths& entries, const fs::path& folder, ProjectSearch sea
 } // namespace
 
 SelectedSources select_sources(const fs::path& named_folder, const EntryPoint& entry_point,
-                               const SourceOptions& options, ProjectSearch search) {
+                               const SourceOptions& options, const ProjectSearch& search) {
     // Canonical, so that "../x.cpp" in a project file has the same path as x.cpp in the folder.
     const fs::path folder = fs::canonical(named_folder);
     SelectedSources selected;

@@ -43,6 +43,6 @@ struct ProjectSearch {
 /// other project files list together with it. Throws std::runtime_error if there is no source or if several define
 /// the entry point.
 SelectedSources select_sources(const std::filesystem::path& folder, const EntryPoint& entry_point,
-                               const SourceOptions& options, ProjectSearch search);
+                               const SourceOptions& options, const ProjectSearch& search);
 
 } // namespace tandem::command

@@ -185,8 +185,8 @@ class HostWatch {
 
 HostRecord watch_host(hosts::Supervisor& supervisor, const std::vector<std::string>& command,
                       const std::string& folder, double seconds) {
-    const auto record = HostWatch(supervisor, {command.front(), command, "", folder})
-                            .run(std::chrono::duration<double>(seconds));
+    auto record = HostWatch(supervisor, {command.front(), command, "", folder})
+                      .run(std::chrono::duration<double>(seconds));
     supervisor.hosts().pop_back(); // it has ended; a census of many would use up the descriptors
     return record;
 }

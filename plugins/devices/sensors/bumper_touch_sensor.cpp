@@ -4,8 +4,9 @@
 #include <device/BumperTouchSensor.h>
 
 /// Returns true for 1.4 s of every 10 s.
-static OPRoS::Bool is_pressed(int channel, double seconds) {
+static OPRoS::Bool is_bumper_pressed(int channel, double seconds) {
     return tandem::devices::sine(channel, seconds) > 0.9;
 }
 
-TANDEM_DEVICE(BumperTouchSensor, tandem::devices::FunctionSensor<BumperTouchSensor, OPRoS::Bool, is_pressed>)
+TANDEM_DEVICE(BumperTouchSensor,
+              tandem::devices::FunctionSensor<BumperTouchSensor, OPRoS::Bool, is_bumper_pressed>)
