@@ -6,12 +6,19 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <unordered_map>
 
 namespace tandem::wheelchair {
 
 namespace {
 constexpr std::size_t table_size = 100;
-constexpr std::size_t skipped = 100; // ticks; during the first second the hosts are still starting
+constexpr std::size_t start_ticks = 100; // one second
+
+/// A thread that wakes on an idle core waits for some microseconds. NaN does not disturb.
+bool is_disturbed(double core_taken) {
+    constexpr double long_enough = 20e-6;
+    return core_taken > long_enough;
+}
 } // namespace
 
 Statistics statistics(const std::vector<double>& values) {
@@ -38,19 +45,37 @@ double percentile(std::vector<double> values, double fraction) {
     return *at;
 }
 
-std::vector<double> latencies_us(const std::vector<ControlRecord>& control) {
-    std::vector<double> out;
-    for (const ControlRecord& r : control)
-        if (r.references_received > 0) out.push_back((r.reference_read_at - r.reference_stamp) * 1e6);
+std::vector<LatencySample> latencies(const std::vector<JoystickRecord>& joystick,
+                                     const std::vector<ControlRecord>& control) {
+    std::unordered_map<double, double> sender_taken; // by stamp
+    for (const JoystickRecord& r : joystick) sender_taken[r.stamp] = r.core_taken;
+    std::vector<LatencySample> out;
+    for (const ControlRecord& r : control) {
+        if (r.references_received <= 0) continue;
+        const auto sender = sender_taken.find(r.reference_stamp);
+        const bool disturbed =
+            is_disturbed(r.core_taken) || (sender != sender_taken.end() && is_disturbed(sender->second));
+        out.push_back({(r.reference_read_at - r.reference_stamp) * 1e6, disturbed});
+    }
     return out;
 }
 
-std::vector<double> table_samples(const std::vector<double>& latencies) {
-    // A shorter run keeps its first samples.
-    const std::size_t first = latencies.size() >= skipped + table_size ? skipped : 0;
-    const std::size_t last = std::min(first + table_size, latencies.size());
-    return {latencies.begin() + static_cast<std::ptrdiff_t>(first),
-            latencies.begin() + static_cast<std::ptrdiff_t>(last)};
+std::vector<double> values_us(const std::vector<LatencySample>& samples, Samples which) {
+    std::vector<double> out;
+    for (const LatencySample& s : samples)
+        if (which == Samples::all || !s.disturbed) out.push_back(s.us);
+    return out;
+}
+
+std::vector<LatencySample> without_start(const std::vector<LatencySample>& samples) {
+    const std::size_t first = samples.size() >= start_ticks + table_size ? start_ticks : 0;
+    return {samples.begin() + static_cast<std::ptrdiff_t>(first), samples.end()};
+}
+
+std::vector<LatencySample> table_samples(const std::vector<LatencySample>& samples) {
+    auto table = without_start(samples);
+    table.resize(std::min(table.size(), table_size));
+    return table;
 }
 
 SampleCount count_samples(const std::vector<JoystickRecord>& joystick,
@@ -72,28 +97,67 @@ SampleCount count_samples(const std::vector<JoystickRecord>& joystick,
     return count;
 }
 
-std::string latency_tables(const std::vector<LatencyRow>& rows) {
-    const auto sampled = rows.empty() ? 0 : table_samples(rows.front().latencies).size();
-    std::string out = fmt::format("Table 1. Joystick send -> control receive, {} samples [us]\n"
-                                  "  {:<8} {:>9} {:>9} {:>9} {:>9}\n",
-                                  sampled, "", "average", "std.dev.", "min", "max");
+namespace {
+
+std::string percentiles(const std::vector<double>& us) {
+    return fmt::format("{:9.2f} {:9.2f} {:9.2f} {:9.2f}", percentile(us, 0.5), percentile(us, 0.99),
+                       percentile(us, 0.999), percentile(us, 1.0));
+}
+
+/// With different numbers of samples, the heading shows the largest.
+std::string table_1(const std::vector<LatencyRow>& rows, Samples which) {
+    std::size_t sampled = 0;
+    std::string lines;
     for (const LatencyRow& r : rows) {
-        const Statistics s = statistics(table_samples(r.latencies));
-        out += fmt::format("  {:<8} {:9.2f} {:9.2f} {:9.2f} {:9.2f}\n", r.configuration, s.average,
-                           s.deviation, s.min, s.max);
+        const Statistics s = statistics(values_us(table_samples(r.latencies), which));
+        sampled = std::max(sampled, s.samples);
+        lines += fmt::format("  {:<8} {:9.2f} {:9.2f} {:9.2f} {:9.2f}\n", r.configuration, s.average,
+                             s.deviation, s.min, s.max);
     }
-    out += fmt::format("Whole run [us]\n  {:<8} {:>9} {:>9} {:>9} {:>9} {:>8} {:>9} {:>6}\n", "", "p50",
-                       "p99", "p99.9", "max", "sent", "received", "lost");
-    for (const LatencyRow& r : rows) {
-        out += fmt::format("  {:<8} {:9.2f} {:9.2f} {:9.2f} {:9.2f} {:>8} {:>9} {:>6}\n", r.configuration,
-                           percentile(r.latencies, 0.5), percentile(r.latencies, 0.99),
-                           percentile(r.latencies, 0.999), percentile(r.latencies, 1.0), r.samples.sent,
+    return fmt::format("Table 1. Joystick send -> control receive, {} samples [us]\n"
+                       "  {:<8} {:>9} {:>9} {:>9} {:>9}\n{}",
+                       sampled, "", "average", "std.dev.", "min", "max", lines);
+}
+
+std::string whole_run(const std::vector<LatencyRow>& rows) {
+    std::string out = fmt::format("After the first second [us]; references of the whole run\n  {:<8} {:>9} "
+                                  "{:>9} {:>9} {:>9} {:>8} {:>9} {:>6}\n",
+                                  "", "p50", "p99", "p99.9", "max", "sent", "received", "lost");
+    for (const LatencyRow& r : rows)
+        out += fmt::format("  {:<8} {} {:>8} {:>9} {:>6}\n", r.configuration,
+                           percentiles(values_us(without_start(r.latencies))), r.samples.sent,
                            r.samples.received, r.samples.lost);
+    return out;
+}
+
+std::string without_disturbed(const std::vector<LatencyRow>& rows) {
+    std::string out = "Without the samples in whose tick a component's core was taken for over 20 us\n";
+    out += table_1(rows, Samples::undisturbed);
+    out += fmt::format("After the first second [us]\n  {:<8} {:>9} {:>9} {:>9} {:>9} {:>8} {:>9}\n", "",
+                       "p50", "p99", "p99.9", "max", "samples", "disturbed");
+    for (const LatencyRow& r : rows) {
+        const auto samples = without_start(r.latencies);
+        const auto kept = values_us(samples, Samples::undisturbed);
+        out += fmt::format("  {:<8} {} {:>8} {:>9}\n", r.configuration, percentiles(kept), kept.size(),
+                           samples.size() - kept.size());
     }
+    return out;
+}
+
+} // namespace
+
+std::string latency_tables(const std::vector<LatencyRow>& rows) {
+    std::string out = table_1(rows, Samples::all) + whole_run(rows);
+    const auto median = [](const LatencyRow& r) {
+        return percentile(values_us(without_start(r.latencies)), 0.5);
+    };
     for (std::size_t i = 0; i + 1 < rows.size(); ++i)
         out += fmt::format("  p50 of {} minus p50 of {}: {:+.2f} us\n", rows.back().configuration,
-                           rows[i].configuration,
-                           percentile(rows.back().latencies, 0.5) - percentile(rows[i].latencies, 0.5));
+                           rows[i].configuration, median(rows.back()) - median(rows[i]));
+    const auto has_disturbed = [](const LatencyRow& r) {
+        return std::any_of(r.latencies.begin(), r.latencies.end(), [](auto s) { return s.disturbed; });
+    };
+    if (std::any_of(rows.begin(), rows.end(), has_disturbed)) out += without_disturbed(rows);
     return out;
 }
 

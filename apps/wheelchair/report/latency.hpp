@@ -20,12 +20,26 @@ Statistics statistics(const std::vector<double>& values);
 /// Returns the smallest value that is not below `fraction` of the values (nearest rank); 0 if there are none.
 double percentile(std::vector<double> values, double fraction);
 
-/// Returns the time from JoystickComp's send to ControlComp's receive of each reference [us], in the order received.
-/// Only for real-time runs, in which both components use CLOCK_MONOTONIC.
-std::vector<double> latencies_us(const std::vector<ControlRecord>& control);
+/// The time from JoystickComp's send of a reference to ControlComp's receive [us].
+struct LatencySample {
+    double us = 0;
+    bool disturbed =
+        false; // another thread had the core of one of the two components for over 20 us in this tick
+};
+/// Returns a sample of each received reference, in the order received. Only for real-time runs, in which both components use CLOCK_MONOTONIC.
+std::vector<LatencySample> latencies(const std::vector<JoystickRecord>& joystick,
+                                     const std::vector<ControlRecord>& control);
 
-/// Returns the 100 samples of the paper's Table 1, from after the first second; fewer if the run is shorter.
-std::vector<double> table_samples(const std::vector<double>& latencies);
+/// Returns the latencies [us] of all samples, or only those of the undisturbed ones.
+enum class Samples { all, undisturbed };
+std::vector<double> values_us(const std::vector<LatencySample>& samples, Samples which = Samples::all);
+
+/// Returns the samples after the first second, in which the hosts are still starting; all of them if the run is shorter
+/// than two seconds.
+std::vector<LatencySample> without_start(const std::vector<LatencySample>& samples);
+
+/// Returns the first 100 of these for the paper's Table 1; fewer if the run is shorter.
+std::vector<LatencySample> table_samples(const std::vector<LatencySample>& samples);
 
 /// Numbers of references.
 struct SampleCount {
@@ -39,11 +53,12 @@ SampleCount count_samples(const std::vector<JoystickRecord>& joystick,
 /// A line of the latency tables.
 struct LatencyRow {
     std::string configuration;
-    std::vector<double> latencies; // us
+    std::vector<LatencySample> latencies;
     SampleCount samples;
 };
-/// Returns the paper's Table 1 and a table of percentiles over the whole runs, with one line per configuration, and the
-/// difference of the last configuration's median from each other one.
+/// Returns the paper's Table 1 and a table of percentiles after the first second, with one line per configuration, and the
+/// difference of the last configuration's median from each other one. If samples were disturbed, says how many, and
+/// repeats both tables without them.
 std::string latency_tables(const std::vector<LatencyRow>& rows);
 
 } // namespace tandem::wheelchair

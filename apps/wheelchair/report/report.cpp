@@ -38,6 +38,16 @@ ordered_json json_of(const Statistics& s) {
             {"max_us", s.max}};
 }
 
+void add_latencies(ordered_json& j, const std::vector<LatencySample>& samples, Samples which) {
+    const auto us = values_us(without_start(samples), which);
+    j["table1"] = json_of(statistics(values_us(table_samples(samples), which)));
+    j["latency_us"] = {{"samples", us.size()},
+                       {"p50", percentile(us, 0.5)},
+                       {"p99", percentile(us, 0.99)},
+                       {"p99.9", percentile(us, 0.999)},
+                       {"max", percentile(us, 1.0)}};
+}
+
 // Writes null for times that the traces do not contain.
 ordered_json json_of(const HostFailure& i) {
     ordered_json j{
@@ -55,12 +65,8 @@ ordered_json json_of(const RunResult& r, const std::vector<AcceptanceCheck>& acc
                    {"complete", r.complete()}};
     j["samples"] = {{"sent", r.samples.sent}, {"received", r.samples.received}, {"lost", r.samples.lost}};
     if (!r.latencies.empty()) {
-        j["table1"] = json_of(statistics(table_samples(r.latencies)));
-        j["latency_us"] = {{"samples", r.latencies.size()},
-                           {"p50", percentile(r.latencies, 0.5)},
-                           {"p99", percentile(r.latencies, 0.99)},
-                           {"p99.9", percentile(r.latencies, 0.999)},
-                           {"max", percentile(r.latencies, 1.0)}};
+        add_latencies(j, r.latencies, Samples::all);
+        add_latencies(j["undisturbed"], r.latencies, Samples::undisturbed);
     }
     if (!r.rows.empty()) {
         const Row& last = r.rows.back();

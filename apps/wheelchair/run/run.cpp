@@ -363,7 +363,8 @@ class HostedRun {
             r.seconds =
                 scenario_.last_tick() * tick_seconds - traces_.hw.records().front().sequence * tick_seconds;
         r.samples = count_samples(traces_.joystick.records(), traces_.control.records());
-        if (!options_.lockstep) r.latencies = latencies_us(traces_.control.records());
+        if (!options_.lockstep)
+            r.latencies = latencies(traces_.joystick.records(), traces_.control.records());
         if (host_failures_.empty() && r.samples.lost != 0)
             r.failures.push_back(
                 fmt::format("{} of {} references were lost", r.samples.lost, r.samples.sent));

@@ -17,7 +17,7 @@ struct RunResult {
     std::string scenario;
     double seconds = 0.0; // planned length of the scenario
     std::vector<Row> rows;
-    std::vector<double> latencies; // joystick send -> control receive [us]; empty in lock-step
+    std::vector<LatencySample> latencies; // empty in lock-step
     SampleCount samples;
     std::vector<HostFailure> host_failures; // hosts that ended during the run; already printed
     std::vector<std::string> failures;      // one line for each other problem

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <catch2/catch.hpp>
 
+#include <limits>
 #include <numeric>
+#include <thread>
 
 #include "apps/wheelchair/report/latency.hpp"
+#include "plugins/wheelchair/core/body/core_wait.hpp"
 
 using namespace tandem::wheelchair;
 
@@ -47,19 +50,37 @@ TEST_CASE("percentiles are values that occurred") {
 }
 
 TEST_CASE("Table 1 takes 100 samples after the first second, or fewer if there are fewer") {
-    std::vector<double> v(250);
-    std::iota(v.begin(), v.end(), 0.0);
+    std::vector<LatencySample> v(250);
+    for (std::size_t i = 0; i < v.size(); ++i) v[i].us = static_cast<double>(i);
     CHECK(table_samples(v).size() == 100);
-    CHECK(table_samples(v).front() == 100);
+    CHECK(table_samples(v).front().us == 100);
+    CHECK(without_start(v).size() == 150);
     v.resize(30);
     CHECK(table_samples(v).size() == 30);
 }
 
 TEST_CASE("a tick without a new reference is not a latency sample") {
-    const auto us = latencies_us({received(1.0, 1.000005), received(1.0, 1.01, 0), received(1.02, 1.020010)});
+    const auto us =
+        values_us(latencies({}, {received(1.0, 1.000005), received(1.0, 1.01, 0), received(1.02, 1.020010)}));
     REQUIRE(us.size() == 2);
     CHECK(us[0] == Approx(5.0).margin(1e-3));
     CHECK(us[1] == Approx(10.0).margin(1e-3));
+}
+
+TEST_CASE("a sample is disturbed if the sender or the receiver waited for a core in its tick") {
+    std::vector<JoystickRecord> joystick{sent(1), sent(2), sent(3), sent(4)};
+    std::vector<ControlRecord> control{received(1, 1.1), received(2, 2.1), received(3, 3.1),
+                                       received(4, 4.1)};
+    joystick[1].core_taken = 1e-3;
+    control[2].core_taken = 1e-3;
+    control[3].core_taken = std::numeric_limits<double>::quiet_NaN(); // the kernel does not count it
+    const auto samples = latencies(joystick, control);
+    REQUIRE(samples.size() == 4);
+    CHECK_FALSE(samples[0].disturbed);
+    CHECK(samples[1].disturbed);
+    CHECK(samples[2].disturbed);
+    CHECK_FALSE(samples[3].disturbed);
+    CHECK(values_us(samples, Samples::undisturbed).size() == 2);
 }
 
 TEST_CASE("a reference overtaken within a tick is received, one that never arrived is lost") {
@@ -74,10 +95,31 @@ TEST_CASE("a reference overtaken within a tick is received, one that never arriv
 }
 
 TEST_CASE("the tables have a line for each configuration") {
-    const auto text = latency_tables({{"opros", std::vector<double>(300, 1.0), {300, 300, 0}},
-                                      {"mixed", std::vector<double>(300, 4.5), {300, 299, 1}}});
+    const auto text = latency_tables({{"opros", std::vector<LatencySample>(300, {1.0}), {300, 300, 0}},
+                                      {"mixed", std::vector<LatencySample>(300, {4.5}), {300, 299, 1}}});
     CHECK_THAT(text, Catch::Contains("100 samples"));
     CHECK_THAT(text, Catch::Contains("  mixed         4.50      0.00      4.50      4.50"));
     CHECK_THAT(text, Catch::Contains("     300       299      1\n"));
     CHECK_THAT(text, Catch::Contains("p50 of mixed minus p50 of opros: +3.50 us"));
+    CHECK_THAT(text, !Catch::Contains("Without"));
+}
+
+TEST_CASE("the tables are repeated without disturbed samples") {
+    std::vector<LatencySample> samples(300, {1.0});
+    samples[120] = {900.0, true};
+    const auto text = latency_tables({{"mixed", samples, {300, 300, 0}}});
+    const auto second = text.substr(std::min(text.find("Without the samples"), text.size()));
+    CHECK_THAT(text, Catch::Contains("  mixed         9.99     89.90      1.00    900.00"));
+    CHECK_THAT(second, Catch::Contains("99 samples"));
+    CHECK_THAT(second, Catch::Contains("  mixed         1.00      0.00      1.00      1.00"));
+    CHECK_THAT(second, Catch::Contains("     199         1\n"));
+}
+
+TEST_CASE("a thread that nobody keeps from its core has not waited for it") {
+    CoreWait wait;
+    CHECK(wait.seconds_since_last_call() == 0);
+    CHECK_FALSE(wait.seconds_since_last_call() < 0);
+    std::thread([&] {
+        CHECK(wait.seconds_since_last_call() == 0);
+    }).join(); // another thread's count begins anew
 }

@@ -15,12 +15,16 @@ ControlParameters control_parameters(const Settings& settings) {
 }
 
 /// Waits between two polls of the port. Without a pause, a sender would almost always find the port's lock taken by this
-/// poller.
-void pause_between_polls() {
+/// poller. Returns the longest time between two looks at the clock [s]: it is long only if the core was taken away, by
+/// another thread, an interrupt or the hypervisor.
+double pause_between_polls() {
     constexpr double pause_seconds = 3e-7;
-    const double end = monotonic_seconds() + pause_seconds;
-    while (monotonic_seconds() < end) {
+    double now = monotonic_seconds(), longest = 0.0;
+    for (const double end = now + pause_seconds; now < end;) {
+        const double before = std::exchange(now, monotonic_seconds());
+        longest = std::max(longest, now - before);
     }
+    return longest;
 }
 
 } // namespace
@@ -35,7 +39,7 @@ ControlBody::ControlBody(const Settings& settings)
 ControlBody::PollResult ControlBody::poll_reference(ControlPorts& ports) {
     // Real time even in simulation, because this is the time of polling. In lock-step, poll_us is 0.
     const double give_up = monotonic_seconds() + poll_seconds_;
-    PollResult poll{0, monotonic_seconds()};
+    PollResult poll{0, monotonic_seconds(), 0.0};
     for (;;) {
         const auto in = ports.references();
         const double now = monotonic_seconds();
@@ -43,12 +47,13 @@ ControlBody::PollResult ControlBody::poll_reference(ControlPorts& ports) {
             sender_restarted_ = sender_restarted_ || in.newest->sequence < reference_.sequence;
             reference_ = *in.newest;
             reference_at_ = reference_sent_.of(reference_.stamp, clock_.at(tick_));
-            poll = {poll.count + in.count, now};
+            poll.count += in.count;
+            poll.at = now;
         }
         // Uses the stamp instead of the sequence number, which a restarted JoystickComp resets.
         const bool of_this_tick = in.newest && now - reference_at_ < 0.5 * tick_seconds;
         if (of_this_tick || now >= give_up) return poll;
-        pause_between_polls();
+        poll.longest_pause = std::max(poll.longest_pause, pause_between_polls());
     }
 }
 
@@ -74,7 +79,8 @@ void ControlBody::tick(ControlPorts& ports) {
     trace_.append({monotonic_seconds(), static_cast<double>(tick_), t, reference_.sequence, reference_.stamp,
                    poll.at, static_cast<double>(poll.count), wheels_.sequence, wheels_.stamp,
                    law_.filtered_direction_deg(), static_cast<double>(law_.state()), voltage.left,
-                   voltage.right, voltage.brake ? 1.0 : 0.0});
+                   voltage.right, voltage.brake ? 1.0 : 0.0,
+                   std::max(core_wait_.seconds_since_last_call(), poll.longest_pause)});
     ++tick_;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "plugins/wheelchair/core/body/clock.hpp"
+#include "plugins/wheelchair/core/body/core_wait.hpp"
 #include "plugins/wheelchair/core/body/ports.hpp"
 #include "plugins/wheelchair/core/body/settings.hpp"
 #include "plugins/wheelchair/core/law/control_law.hpp"
@@ -20,16 +21,17 @@ class ControlBody {
     ControlState state() const { return law_.state(); }
 
   private:
-    /// Number of received references, and the time of reading the newest.
     struct PollResult {
-        int count;
-        double at;
+        int count;            // of received references
+        double at;            // when the newest was read
+        double longest_pause; // between two polls, see pause_between_polls()
     };
     PollResult poll_reference(ControlPorts& ports);
 
     TickClock clock_;
     double poll_seconds_;
     Trace<ControlRecord> trace_;
+    CoreWait core_wait_;
     ControlLaw law_;
     Stamped<Reference> reference_;
     Stamped<WheelSpeed> wheels_;

@@ -40,7 +40,8 @@ void JoystickBody::tick(JoystickPorts& ports) {
     if (sent) ports.send(out);
     trace_.append({monotonic_seconds(), out.sequence, position_.sequence, static_cast<double>(in.count),
                    position_.value.x, position_.value.y, position_.value.emergency_stop ? 1.0 : 0.0,
-                   reference.direction_deg, reference.speed, sent ? 1.0 : 0.0, out.stamp});
+                   reference.direction_deg, reference.speed, sent ? 1.0 : 0.0, out.stamp,
+                   core_wait_.seconds_since_last_call()});
     ++tick_;
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "plugins/wheelchair/core/body/clock.hpp"
+#include "plugins/wheelchair/core/body/core_wait.hpp"
 #include "plugins/wheelchair/core/body/ports.hpp"
 #include "plugins/wheelchair/core/body/settings.hpp"
 #include "plugins/wheelchair/core/law/joystick_law.hpp"
@@ -24,6 +25,7 @@ class JoystickBody {
     Scenario scenario_;
     TickClock clock_;
     Trace<JoystickRecord> trace_;
+    CoreWait core_wait_;
     JoystickLaw law_;
     Stamped<JoystickPosition> position_;
     SentTime position_sent_;

@@ -20,6 +20,7 @@ struct JoystickRecord {
     double position_sequence, positions_received, jx, jy, emergency_stop;
     double direction_deg, speed;
     double sent, stamp; // sent: 1 if the reference was sent in this tick
+    double core_taken;  // how long others had the core since the last record, see CoreWait
     static constexpr const char* names[] = {"at",
                                             "tick",
                                             "position_sequence",
@@ -30,7 +31,8 @@ struct JoystickRecord {
                                             "direction_deg",
                                             "speed",
                                             "sent",
-                                            "stamp"};
+                                            "stamp",
+                                            "core_taken"};
 };
 
 /// Record of ControlComp.
@@ -40,6 +42,7 @@ struct ControlRecord {
     double wheel_sequence, wheel_stamp;
     double filtered_direction_deg, state;
     double volts_left, volts_right, brake;
+    double core_taken; // as JoystickRecord's, or the longest break in polling if that is longer
     static constexpr const char* names[] = {"at",
                                             "tick",
                                             "time",
@@ -53,7 +56,8 @@ struct ControlRecord {
                                             "state",
                                             "volts_left",
                                             "volts_right",
-                                            "brake"};
+                                            "brake",
+                                            "core_taken"};
 };
 
 /// Record of HWComp.
