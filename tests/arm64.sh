@@ -41,12 +41,13 @@ cat > "$target/build_and_test.sh" <<'BUILD'
 set -euo pipefail
 cd "$1"
 shift
-# Tests start programs for arm64, which the kernel hands to qemu. From Linux 6.7 on, it keeps this setting for these processes.
-if [ ! -e /proc/sys/fs/binfmt_misc/qemu-aarch64 ]; then
-    mount -t binfmt_misc none /proc/sys/fs/binfmt_misc &&
-        echo ':qemu-aarch64:M::\x7fELF\x02\x01\x01\x00\x00\x00\x00\x00\x00\x00\x00\x00\x02\x00\xb7\x00:\xff\xff\xff\xff\xff\xff\xff\x00\xff\xff\xff\xff\xff\xff\xff\xff\xfe\xff\xff\xff:/usr/bin/qemu-aarch64-static:OCPF' \
-            > /proc/sys/fs/binfmt_misc/register ||
-        { echo "tests/arm64.sh: this kernel cannot run programs for arm64; apt install qemu-user-static" >&2; exit 1; }
+# Tests start programs for arm64. The kernel hands them to qemu, unless this machine has another setting, until this script ends.
+setting=/proc/sys/fs/binfmt_misc
+mount -t binfmt_misc none $setting
+if [ ! -e $setting/qemu-aarch64 ]; then
+    trap 'echo -1 > $setting/qemu-aarch64' EXIT
+    echo ':qemu-aarch64:M::\x7fELF\x02\x01\x01\x00\x00\x00\x00\x00\x00\x00\x00\x00\x02\x00\xb7\x00:\xff\xff\xff\xff\xff\xff\xff\x00\xff\xff\xff\xff\xff\xff\xff\xff\xfe\xff\xff\xff:/usr/bin/qemu-aarch64-static:OCPF' \
+        > $setting/register
 fi
 cmake --preset arm64 -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=32 >/dev/null
 programs=("$@")
@@ -70,7 +71,7 @@ BUILD
 mkdir -p "$target$top"
 export top target
 # The mounts and all processes end with this one.
-exec unshare --user --map-root-user --mount --pid --fork bash -euc '
+exec unshare --mount --pid --fork --kill-child bash -euc '
     mount --rbind "$top" "$target$top"
     mount -t proc proc "$target/proc"
     mount --rbind /dev "$target/dev"
