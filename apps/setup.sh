@@ -7,11 +7,22 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
 say() { printf '== %s\n' "$*"; }
 
+# describe_distribution [OS_RELEASE]
+# Prints one line if this is a distribution on which nobody runs the tests. OS_RELEASE: a file as os-release(5).
+describe_distribution() ( # in a subshell: the file sets many variables
+    VERSION_ID=
+    . "${1:-/etc/os-release}"
+    case $ID-$VERSION_ID in debian-12|debian-13) exit 0 ;; esac
+    say "Tandem is not tested on $PRETTY_NAME; docs/platforms.md says what is known"
+)
+
 # install_missing_packages [GROUP]
 # Installs the packages of a group in dependencies.txt (default: [build]). Exits with one line if a package is missing
 # and neither root nor sudo can install it.
 install_missing_packages() {
     local missing=() package group=
+    command -v apt-get >/dev/null ||
+        { echo "apps/setup.sh: no apt-get on this system; docs/platforms.md says what is known of systems other than Debian" >&2; exit 1; }
     while read -r package _; do
         case "$package" in ''|'#'*) continue ;; '['*) group=$package; continue ;; esac
         [ "$group" = "[${1:-build}]" ] || continue
@@ -24,6 +35,7 @@ install_missing_packages() {
         sudo=(sudo)
     fi
     local start=$SECONDS
+    describe_distribution
     say "installing ${#missing[@]} packages: ${missing[*]}"
     "${sudo[@]}" apt-get update -qq
     "${sudo[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Cross-compiles preset arm64 in a Debian 12 root folder that it makes, and runs tests of it under qemu.
-#   tests/arm64.sh [ninja target ...]    (default: the tests of shared memory and of the wire format)
-# Needs root, debootstrap and 3 GB in /var/tmp/tandem-arm64.
+#   tests/arm64.sh [ninja target ...]    (default: the tests of shared memory, of the wire format and of links, and the wheelchair)
+# Without targets, the wheelchair must write the same bytes in lock-step as on x86-64; log and figure are in build/arm64/wheelchair.
+# Times under qemu say nothing of a board. Needs root, debootstrap and 3 GB in /var/tmp/tandem-arm64.
 set -euo pipefail
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 target=/var/tmp/tandem-arm64
@@ -23,7 +24,7 @@ export DEBIAN_FRONTEND=noninteractive
 dpkg --add-architecture arm64
 apt-get update -qq
 packages="g++-aarch64-linux-gnu qemu-user-static libstdc++-12-dev:arm64"
-for package in $(sed -n '/^\[build\]/,/^\[components\]/s/^\([a-z0-9][^ ]*\) .*/\1/p' dependencies.txt); do
+for package in $(sed -n -e '/^\[build\]/,/^\[components\]/p' -e '/^\[packages\]/,/^\[machines\]/p' dependencies.txt | sed -n 's/^\([a-z0-9][^ ]*\) .*/\1/p'); do
     # Libraries are for arm64, programs for this machine. Packages of headers alone have no architecture.
     case $package in lib*-dev|catch2) if apt-cache show "$package:arm64" >/dev/null 2>&1; then package=$package:arm64; fi ;; esac
     packages="$packages $package"
@@ -35,18 +36,44 @@ PREPARE
     touch "$target/ready"
 fi
 
-[ $# -gt 0 ] || set -- test_shm_segment test_shm_ring test_shm_calls test_wire
+cat > "$target/build_and_test.sh" <<'BUILD'
+# build_and_test.sh TREE [ninja target ...]
+set -euo pipefail
+cd "$1"
+shift
+# Tests start programs for arm64. The kernel hands them to qemu, unless this machine has another setting, until this script ends.
+setting=/proc/sys/fs/binfmt_misc
+mount -t binfmt_misc none $setting
+if [ ! -e $setting/qemu-aarch64 ]; then
+    trap 'echo -1 > $setting/qemu-aarch64' EXIT
+    echo ':qemu-aarch64:M::\x7fELF\x02\x01\x01\x00\x00\x00\x00\x00\x00\x00\x00\x00\x02\x00\xb7\x00:\xff\xff\xff\xff\xff\xff\xff\x00\xff\xff\xff\xff\xff\xff\xff\xff\xfe\xff\xff\xff:/usr/bin/qemu-aarch64-static:OCPF' \
+        > $setting/register
+fi
+cmake --preset arm64 -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=32 >/dev/null
+programs=("$@")
+if [ $# -eq 0 ]; then
+    programs=(test_shm_segment test_shm_ring test_shm_calls test_shm_data_path test_shm_pages_16k test_shm_pages_64k test_wire
+        test_link test_wheelchair_core)
+    set -- "${programs[@]}" test_wheelchair_hosts wheelchair_all
+fi
+cmake --build --preset arm64 --target "$@"
+for program in "${programs[@]}"; do
+    case $program in test_*) echo "== $program"; "build/arm64/tests/$program" ;; esac
+done
+if [ ${#programs[@]} -lt $# ]; then
+    echo "== test_wheelchair_hosts: lock-step"
+    build/arm64/tests/test_wheelchair_hosts '*lock-step is the in-memory run*'
+    mkdir -p build/arm64/wheelchair
+    build/arm64/bin/wheelchair --lockstep --csv build/arm64/wheelchair/run.csv --plot build/arm64/wheelchair/run.svg \
+        --json build/arm64/wheelchair/run.json
+fi
+BUILD
 mkdir -p "$target$top"
 export top target
-# The mounts end with this process.
-exec unshare --mount bash -euc '
-    mount --bind "$top" "$target$top"
+# The mounts and all processes end with this one.
+exec unshare --mount --pid --fork --kill-child bash -euc '
+    mount --rbind "$top" "$target$top"
     mount -t proc proc "$target/proc"
     mount --rbind /dev "$target/dev"
-    exec chroot "$target" bash -euc "
-        cd \"\$0\"
-        cmake --preset arm64 >/dev/null
-        cmake --build --preset arm64 --target \"\$@\"
-        for test in \"\$@\"; do
-            case \$test in test_*) qemu-aarch64-static build/arm64/tests/\$test ;; esac
-        done" "$top" "$@"' bash "$@"
+    mount -t tmpfs tmpfs "$target/dev/shm"
+    exec chroot "$target" bash /build_and_test.sh "$top" "$@"' bash "$@"

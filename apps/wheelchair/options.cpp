@@ -6,6 +6,7 @@
 #include "host/text/printable.hpp"
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 #include <tandem_version.hpp>
 
 #include <cstdio>
@@ -127,7 +128,7 @@ Options parse_options(int argc, char** argv) {
         *path = absolute(*path);
     for (const std::string& path : {o.joystick_file, o.keep}) require_plain_path(path);
     // The hosts have options with the same names.
-    if (spin) o.host_arguments.insert(o.host_arguments.end(), {"--tick-spin", CLI::detail::to_string(*spin)});
+    if (spin) o.host_arguments.insert(o.host_arguments.end(), {"--tick-spin", fmt::format("{}", *spin)});
     if (wait) o.host_arguments.insert(o.host_arguments.end(), {"--wait-mode", *wait});
     if (idle) o.host_arguments.push_back("--low-latency-idle");
     if (lock) o.host_arguments.push_back("--lock-memory");

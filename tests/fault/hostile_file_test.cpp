@@ -116,7 +116,7 @@ namespace {
 /// Touches a mapping of a file that ends before it; no segment's.
 void touch_lost_memory() {
     FILE* file = std::tmpfile();
-    auto* lost = static_cast<volatile char*>(mmap(nullptr, 4096, PROT_READ, MAP_SHARED, fileno(file), 0));
+    auto* lost = static_cast<volatile char*>(mmap(nullptr, 1, PROT_READ, MAP_SHARED, fileno(file), 0));
     static_cast<void>(lost[0]);
 }
 

@@ -14,8 +14,8 @@ namespace {
 constexpr std::uint64_t sharp_enough_ns = 10'000;
 constexpr std::int64_t smallest_step_ns = 1'000'000;
 
-constexpr const char* step_type = "tandem::ClockStep";
-constexpr const char* step_idl =
+constexpr const char* clock_step_type = "tandem::ClockStep";
+constexpr const char* clock_step_idl =
     "module tandem {\nstruct ClockStep {\n  long long step_ns;\n  long long offset_ns;\n};\n};\n";
 constexpr const char* step_signature = "{step_ns}x{offset_ns}x";
 
@@ -57,7 +57,8 @@ void ClockChannel::write_step() {
     if (channel_ == 0)
         channel_ = writer_.add_channel(
             clock_topic,
-            writer_.add_schema(step_type, "omgidl", std::as_bytes(std::span(std::string_view(step_idl)))),
+            writer_.add_schema(clock_step_type, "omgidl",
+                               std::as_bytes(std::span(std::string_view(clock_step_idl)))),
             "cdr", {{"tandem.signature", step_signature}});
     std::vector<std::byte> bytes, message(std::begin(encapsulation), std::end(encapsulation));
     wire::CdrWriter out(bytes);

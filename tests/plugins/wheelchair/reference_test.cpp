@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <cstdint>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -62,7 +63,24 @@ double path_length(const std::vector<Row>& rows, std::size_t from) {
     return sum;
 }
 
+/// FNV-1a, 64 bits.
+std::uint64_t digest(const std::string& text) {
+    std::uint64_t hash = 0xcbf29ce484222325;
+    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+    return hash;
+}
+
 } // namespace
+
+TEST_CASE("every scenario has the same log, byte for byte, on every processor and distribution") {
+    std::ifstream file(std::string(TEST_DATA_DIR) + "/digests.txt");
+    int compared = 0;
+    for (std::string name, expected; file >> name >> expected; ++compared) {
+        INFO(name);
+        CHECK(digest(csv_text(simulate(find_scenario(name)))) == std::stoull(expected, nullptr, 16));
+    }
+    CHECK(compared == 14);
+}
 
 TEST_CASE("every scenario reproduces the rows of the Python reference") {
     std::ifstream file(std::string(TEST_DATA_DIR) + "/reference_rows.csv");

@@ -125,12 +125,12 @@ TEST_CASE("a side that needs more room for chunks than there is creates the next
 
 TEST_CASE("a blob that claims more bytes than its file has memory for is not copied") {
     const Link link;
-    auto first = join(link, Side::first, sparse(std::size_t{1} << 40)),
+    auto first = join(link, Side::first, sparse(std::size_t{1} << 34)),
          second = join(link, Side::second, sparse(0));
     first->add_blob("table", 100);
     first->publish();
     CHECK(second->copy_blob(Side::first, "table")->size() == 100);
-    const std::uint64_t claimed = std::uint64_t{1} << 39;
+    const std::uint64_t claimed = std::uint64_t{1} << 33;
     const FileDescriptor file(open(first->path().c_str(), O_RDWR | O_CLOEXEC));
     const std::size_t entry = sizeof(layout::SegmentHeader) + offsetof(layout::SideHeader, directory);
     REQUIRE(pwrite(file.get(), &claimed, sizeof claimed,

@@ -111,8 +111,9 @@ TEST_CASE("a sleep ends at its bound or when it is ended, even if the file behin
           "meanwhile") {
     const bool at_its_bound = GENERATE(true, false);
     const int file = memfd_create("word", MFD_CLOEXEC);
-    REQUIRE(ftruncate(file, 4096) == 0);
-    void* const page = mmap(nullptr, 4096, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+    constexpr std::size_t bytes = sizeof(std::uint32_t); // the kernel maps a page
+    REQUIRE(ftruncate(file, bytes) == 0);
+    void* const page = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
     REQUIRE(page != MAP_FAILED);
     auto& word = *new (page) std::atomic<std::uint32_t>(1);
     std::atomic<bool> ended{false};
@@ -123,10 +124,10 @@ TEST_CASE("a sleep ends at its bound or when it is ended, even if the file behin
     std::this_thread::sleep_for(20ms); // most likely it sleeps by now
     CHECK(ftruncate(file, 0) == 0);
     if (!at_its_bound)
-        FutexTimeoutThread::of_process().end_sleeps({static_cast<const std::byte*>(page), 4096});
+        FutexTimeoutThread::of_process().end_sleeps({static_cast<const std::byte*>(page), bytes});
     CHECK(eventually([&] { return ended.load(); }));
     sleeper.join();
-    munmap(page, 4096);
+    munmap(page, bytes);
     close(file);
 }
 

@@ -221,7 +221,7 @@ std::unique_lock<rt::ShortMutex> ComponentHost::wait_for_cycle(std::chrono::mill
     std::unique_lock lock(cycle_mutex_, std::try_to_lock);
     while (!lock && std::chrono::steady_clock::now() < deadline) {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        lock.try_lock();
+        lock = std::unique_lock(cycle_mutex_, std::try_to_lock);
     }
     return lock;
 }

@@ -14,7 +14,7 @@ std::vector<std::filesystem::path> default_plugin_dirs() {
     const fs::path root = fs::read_symlink("/proc/self/exe", ignored).parent_path().parent_path();
     dirs.push_back(root / "plugins/rtm");
     for (const char* lib : {"lib", "lib64"}) dirs.push_back(root / lib / "tandem/plugins/rtm");
-    for (const auto& entry : fs::directory_iterator(root / "lib", ignored)) // lib/x86_64-linux-gnu
+    for (const auto& entry : fs::directory_iterator(root / "lib", ignored)) // lib/ARCHITECTURE-linux-gnu
         if (entry.is_directory() && fs::exists(entry.path() / "tandem/plugins/rtm"))
             dirs.push_back(entry.path() / "tandem/plugins/rtm");
     return dirs;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Replaces five functions of omniORB 4.2.5, which calls them through the dynamic symbol table. That finds the
+// Replaces five functions of omniORB 4.2 and 4.3, which calls them through the dynamic symbol table. That finds the
 // definitions in this library first.
 //
 // GIOP_S_Holder is the request that a thread serves. If an exception that is none of CORBA ends a request before its
@@ -18,7 +18,8 @@
 // StrandList::insert() is the first function that is called for each accepted connection. Interceptors are only called
 // once the connection has a thread, which a silent one may not get.
 //
-// The faults were found in omniORB 4.2.5. The build leaves this file out for another minor version.
+// The faults were found in omniORB 4.2.5. These functions are the same in 4.3.3, apart from the size of 2^32 - 12. The build
+// leaves this file out for another minor version.
 #include "host/rtm/runtime/network/connection_limits.hpp"
 #include "host/rtm/runtime/network/request_admission.hpp"
 

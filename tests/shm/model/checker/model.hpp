@@ -49,8 +49,8 @@
 // What is not explored
 // - Loads that read stores which come later in the program order of all threads (load buffering, values out of
 //   thin air), and stores put into the modification order before ones already executed (2+2W). x86-64 does
-//   neither. Against the first, a scenario can demand that what was read happens before every later store
-//   (settle()).
+//   neither. For arm64, which does both, litmus/ has the core patterns. Against the first, a scenario can demand that
+//   what was read happens before every later store (settle()).
 // - Compilers: a scenario sees the order of accesses as written, so compiler reordering only as far as the rules
 //   above allow it. Plain data that the code under test keeps outside of `A` is not seen at all.
 // - Mixed sizes, torn words: a word is read and written whole. Early returns of futex_wait.

@@ -1,0 +1,16 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# What apps/setup.sh says of distributions.   distribution_test.sh ROOT
+set -euo pipefail
+. "$1/apps/setup.sh"
+
+fail() { echo "distribution_test.sh: $1" >&2; exit 1; }
+described() { describe_distribution <(printf 'ID=%s\nVERSION_ID="%s"\nPRETTY_NAME="%s"\n' "$@"); }
+
+for version in 12 13; do [ -z "$(described debian $version "Debian $version")" ] || fail "Debian $version is not tested"; done
+[ "$(described ubuntu 24.04 'Ubuntu 24.04 LTS')" = \
+    '== Tandem is not tested on Ubuntu 24.04 LTS; docs/platforms.md says what is known' ] || fail "Ubuntu is not named"
+[ -n "$(described debian 14 'Debian 14')" ] || fail "a later Debian is not named"
+
+if said=$(PATH=/nowhere install_missing_packages 2>&1); then fail "a system without apt-get is accepted"; fi
+case $said in 'apps/setup.sh: no apt-get on this system; '*) ;; *) fail "a system without apt-get prints: $said" ;; esac
