@@ -42,8 +42,7 @@ Options read_options(int argc, char** argv, int& exit_code) {
                    "Measure everything N times and report the median (default 1; with --acceptance 5)")
         ->check(CLI::Range(1, 100));
     app.add_option("--tail-messages", options.tail_messages,
-                   "Messages of each case of tails, one a millisecond, beside as many over the minimal ring "
-                   "(default 5000, with --quick 1000)")
+                   "Number of messages of each case of tails (default 5000, with --quick 1000)")
         ->check(CLI::Range(1000, 10'000'000));
     app.add_option("--cores", options.cores, "Cores of the two sides of a case, A,B (default: the first two)")
         ->delimiter(',')
@@ -54,7 +53,7 @@ Options read_options(int argc, char** argv, int& exit_code) {
     app.add_flag("--acceptance,--bar", options.acceptance,
                  "Measure the cases with acceptance limits, and print value, limit, pass or FAIL");
     app.add_flag("--path-functions", options.path_functions,
-                 "With the cases of path: name the functions, with the instructions that each takes");
+                 "List the functions of each path case, with their instructions");
     app.add_flag("--quiet", options.quiet, "No progress on stderr");
     // CLI11 reports errors and --help by exceptions; exit() prints them.
     exit_code = -1;

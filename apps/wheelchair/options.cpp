@@ -43,7 +43,8 @@ void add_host_options(CLI::App& app, Options& o, std::optional<double>& spin,
                       std::optional<std::string>& wait, bool& idle, bool& lock) {
     app.add_option("--opros-cpu", o.opros_cpu, "core for opros_host's tick threads");
     app.add_option("--rtm-cpu", o.rtm_cpu, "core for rtm_host's tick threads");
-    app.add_option("--tick-spin", spin, "both hosts poll for this time before each tick [us] [100]");
+    app.add_option("--tick-spin", spin,
+                   "both hosts poll for this time before each tick [us] (100 while messages flow)");
     app.add_option("--wait-mode", wait, "how both hosts wait for each other's calls");
     app.add_flag("--low-latency-idle", idle, "both hosts keep the cores out of deep sleep states");
     app.add_flag("--lock-memory", lock, "both hosts lock their memory");

@@ -29,7 +29,7 @@ std::optional<RtmHostOptions> parse_rtm_host_options(int argc, char** argv, int&
                    "additional folder of component libraries (repeatable)")
         ->allow_extra_args(false);
     cli.add_option("--grace", options.grace_s,
-                   "seconds that the end waits for a callback of a component to return (10)")
+                   "time limit for each callback of a component when the host ends, in seconds (10)")
         ->check(number_between(0.01, 3600.));
     add_library_probe_options(cli, options.probe);
     add_real_time_options(cli, options.real_time);
