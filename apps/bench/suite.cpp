@@ -62,7 +62,7 @@ class Daemon {
             std::this_thread::sleep_for(std::chrono::milliseconds(10));
         }
         if (!is_ready())
-            throw std::runtime_error(program + " was not ready after 10 s; see the load of the machine");
+            throw std::runtime_error(program + " was not ready after 10 s; check the load of the machine");
     }
 
   private:

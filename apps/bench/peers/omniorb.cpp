@@ -99,7 +99,7 @@ class OrbSide {
     OrbSide& operator=(const OrbSide&) = delete;
 
   protected:
-    // Two object references, one behind the other, at the front of the session's memory.
+    // Two object references, one after the other, at the front of the session's memory.
     static constexpr std::size_t text_bytes = 4096;
     /// Of calls and streams, nothing is.
     static bool is_echoed(const Case& bench_case) {
