@@ -55,14 +55,7 @@ Options read_options(int argc, char** argv, int& exit_code) {
     app.add_flag("--path-functions", options.path_functions,
                  "List the functions of each path case, with their instructions");
     app.add_flag("--quiet", options.quiet, "No progress on stderr");
-    // CLI11 reports errors and --help by exceptions; exit() prints them.
-    exit_code = -1;
-    app.failure_message(tandem::options::usage_error);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) { // also thrown for --help
-        exit_code = app.exit(error);
-    }
+    exit_code = tandem::options::parse(app, argc, argv).value_or(-1);
     return options;
 }
 

@@ -112,12 +112,7 @@ Options parse_options(int argc, char** argv) {
     add_host_options(app, o, spin, wait, idle, lock);
     app.footer("Examples:\n  $ wheelchair --plot run.svg\n  $ wheelchair --config split --lockstep --record "
                "run.mcap");
-    app.failure_message(tandem::options::usage_error);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& e) {
-        std::exit(app.exit(e));
-    }
+    if (const auto exit_code = tandem::options::parse(app, argc, argv)) std::exit(*exit_code);
     o.configuration = configurations.at(configuration);
     if (o.drive && o.configuration == Configuration::memory) {
         std::fputs("wheelchair: --drive needs hosts; choose a --config other than memory\n", stderr);

@@ -31,14 +31,9 @@ std::optional<OprosHostOptions> parse_opros_host_options(int argc, char** argv, 
     add_library_probe_options(cli, options.probe);
     add_real_time_options(cli, options.real_time);
     cli.footer("Examples:\n  $ opros_host robot.xml\n  $ opros_host robot.xml --strict --lock-memory");
-    cli.failure_message(usage_error);
-    try {
-        cli.parse(argc, argv);
-        return options;
-    } catch (const CLI::ParseError& error) {
-        exit_code = cli.exit(error);
-        return std::nullopt;
-    }
+    const auto result = parse(cli, argc, argv);
+    exit_code = result.value_or(0);
+    return result ? std::nullopt : std::optional(options);
 }
 
 } // namespace tandem::options
