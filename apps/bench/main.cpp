@@ -23,12 +23,12 @@ using namespace tandem::bench;
 struct Options {
     std::string only, json;
     bool list = false, path_functions = false, quick = false, acceptance = false, quiet = false;
-    std::size_t tail_messages = 0; ///< 0: those of the budget
+    std::size_t tail_messages = 0; ///< 0: the number in the budget
     int runs = 0;                  ///< 0: one, or five with --acceptance
     std::vector<int> cores;        ///< of A and B; empty: the first two that are allowed
 };
 
-/// Reads the command line. If the program is to end, it has printed help or the error, and exit_code is not -1.
+/// Reads the command line. After help or an error was printed, exit_code is not -1 and the program must end.
 Options read_options(int argc, char** argv, int& exit_code) {
     Options options;
     CLI::App app("Latency and throughput of Tandem, of the machine's own limits (baseline), and of other "
@@ -42,8 +42,7 @@ Options read_options(int argc, char** argv, int& exit_code) {
                    "Measure everything N times and report the median (default 1; with --acceptance 5)")
         ->check(CLI::Range(1, 100));
     app.add_option("--tail-messages", options.tail_messages,
-                   "Messages of each case of tails, one a millisecond, beside as many over the minimal ring "
-                   "(default 5000, with --quick 1000)")
+                   "Number of messages of each case of tails (default 5000, with --quick 1000)")
         ->check(CLI::Range(1000, 10'000'000));
     app.add_option("--cores", options.cores, "Cores of the two sides of a case, A,B (default: the first two)")
         ->delimiter(',')
@@ -54,23 +53,16 @@ Options read_options(int argc, char** argv, int& exit_code) {
     app.add_flag("--acceptance,--bar", options.acceptance,
                  "Measure the cases with acceptance limits, and print value, limit, pass or FAIL");
     app.add_flag("--path-functions", options.path_functions,
-                 "With the cases of path: name the functions, with the instructions that each takes");
+                 "List the functions of each path case, with their instructions");
     app.add_flag("--quiet", options.quiet, "No progress on stderr");
-    // CLI11 reports errors and --help by exceptions; exit() prints them.
-    exit_code = -1;
-    app.failure_message(tandem::options::usage_error);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) { // or a request for help
-        exit_code = app.exit(error);
-    }
+    exit_code = tandem::options::parse(app, argc, argv).value_or(-1);
     return options;
 }
 
-/// Of a case: for seconds with --quick, else for minutes.
+/// The budget of a case: seconds with --quick, otherwise minutes.
 Budget budget_of(const Options& options) {
     Budget budget;
-    // About a tenth of everything: enough to see that a case works, not to compare two versions.
+    // About a tenth of everything: enough to see that a case works, not enough to compare two versions.
     if (options.quick) {
         budget.warm_up = 2'000;
         budget.samples = 5'000;
@@ -88,10 +80,10 @@ Budget budget_of(const Options& options) {
     return budget;
 }
 
-/// Two of the cores that this process may use: those of --cores, or the first two, or the only one twice. Throws
-/// std::runtime_error if --cores names another.
+/// Returns two of the cores that this process may use: those of --cores, or the first two, or the only one
+/// twice. Throws std::runtime_error if --cores names another core.
 Cores cores_of(const Options& options) {
-    // Checked here, so that a wrong core is one line and not the failure of each case.
+    // Checked here, so that a wrong core is one line and not a failure of each case.
     const std::vector<int> allowed = allowed_cores();
     const std::vector<int>& wanted = options.cores.empty() ? allowed : options.cores;
     for (int core : options.cores)
@@ -101,14 +93,14 @@ Cores cores_of(const Options& options) {
     return {wanted.front(), wanted.size() > 1 ? wanted[1] : wanted.front()};
 }
 
-/// The limits that this build can check: a peer without cases has none.
+/// Returns the limits that this build can check: a peer without cases has none.
 std::vector<AcceptanceLimit> limits_for(const Registry& registry) {
     std::vector<std::string> ids;
     for (const Case& entry : registry.cases) ids.push_back(entry.id());
     return acceptance_limits(ids);
 }
 
-/// With --acceptance and no --only, the cases that the limits refer to and no others.
+/// Returns, with --acceptance and without --only, exactly the cases that the limits refer to.
 Plan plan_of(const Options& options, const Registry& registry, const std::vector<AcceptanceLimit>& limits) {
     Plan plan;
     plan.cases = selected(registry.cases, options.only);
@@ -127,7 +119,7 @@ Plan plan_of(const Options& options, const Registry& registry, const std::vector
     return plan;
 }
 
-/// --list.
+/// Carries out --list.
 int list(const Options& options, const Registry& registry) {
     for (const Case& entry : selected(registry.cases, options.only)) fmt::print("{}\n", entry.id());
     for (const SkippedPeer& skipped : registry.skipped)
@@ -135,7 +127,7 @@ int list(const Options& options, const Registry& registry) {
     return 0;
 }
 
-/// The exit code: 1 if an acceptance limit is not met, 130 (as after SIGINT) if interrupted.
+/// Returns the exit code: 1 if an acceptance limit is missed, 130 (as after SIGINT) if interrupted.
 int run(const Options& options) {
     const Registry registry = all_cases();
     // --list measures nothing and needs no privileges.

@@ -32,12 +32,13 @@ constexpr const char* roudi_pools = "[general]\nversion = 1\n[[segment]]\n"
 
 namespace fs = std::filesystem;
 
-/// A program that a peer needs (iceoryx: RouDi). Runs while this object exists, with its log and configuration in a
-/// separate temporary folder. The destructor sends SIGTERM, after 5 s SIGKILL, and removes the folder.
+/// A program that a peer needs (iceoryx: RouDi). It runs while this object exists, with its log and
+/// configuration in a separate temporary folder. The destructor sends SIGTERM, after 5 s SIGKILL, and removes
+/// the folder.
 class Daemon {
   public:
-    /// Starts the program (looked up on PATH) and waits until its log says that it is ready. Empty: there is
-    /// none. Throws std::runtime_error if it ends, or is not ready in 10 s.
+    /// Starts the program (found on PATH) and waits until its log says that it is ready. Does nothing if the
+    /// name is empty. Throws std::runtime_error if the program ends, or is not ready within 10 s.
     explicit Daemon(const std::string& program) {
         if (program.empty()) return;
         std::string name = (fs::temp_directory_path() / "tandem-bench-XXXXXX").string();
@@ -61,7 +62,7 @@ class Daemon {
             std::this_thread::sleep_for(std::chrono::milliseconds(10));
         }
         if (!is_ready())
-            throw std::runtime_error(program + " was not ready after 10 s; see the load of the machine");
+            throw std::runtime_error(program + " was not ready after 10 s; check the load of the machine");
     }
 
   private:
@@ -70,7 +71,7 @@ class Daemon {
             : folder(std::move(temporary_folder)), process(command, {-1, log, log, ""}) {}
         ~Running() {
             process.stop(std::chrono::seconds(5));
-            std::error_code ignored; // what stays in the temporary folder does no harm
+            std::error_code ignored; // leftovers in the temporary folder do no harm
             fs::remove_all(folder, ignored);
         }
         fs::path folder;
@@ -80,13 +81,13 @@ class Daemon {
     std::unique_ptr<Running> running_;
 };
 
-/// As the report shows them: "0", or "0,1".
+/// Returns the cores as in the report: "0", or "0,1".
 std::string cores_text(const Case& bench_case, const Cores& cores) {
     if (bench_case.placement == Placement::alone) return std::to_string(cores.a);
     return fmt::format("{},{}", cores.a, bench_case.placement == Placement::same_core ? cores.a : cores.b);
 }
 
-/// What is known of a row before it is measured.
+/// Returns a row with everything that is known before the measurement.
 Row empty_row(const Case& bench_case, const Cores& cores) {
     Row row;
     row.id = bench_case.id();
@@ -105,12 +106,12 @@ Row empty_row(const Case& bench_case, const Cores& cores) {
     return row;
 }
 
-/// Repeats a case, after a pause, while other processes disturb it; the least disturbed attempt counts.
+/// Repeats a case, after a pause, while other processes disturb it. The least disturbed attempt counts.
 Outcome measure_undisturbed(const Case& bench_case, const Plan& plan) {
     Outcome best = run_case(bench_case, plan.budget, plan.cores);
-    // The pause lets a short disturbance, as a cron job, pass.
+    // During the pause, a short disturbance such as a cron job ends.
     const int attempts =
-        bench_case.extra_seconds > 0 ? 1 : plan.budget.attempts; // a long case averages disturbances out
+        bench_case.extra_seconds > 0 ? 1 : plan.budget.attempts; // a long case averages disturbances
     for (int i = 1; i < attempts && best.foreign_cpu_share > Row::max_foreign_cpu_share && !interrupted();
          ++i) {
         std::this_thread::sleep_for(std::chrono::milliseconds(500));
@@ -122,7 +123,7 @@ Outcome measure_undisturbed(const Case& bench_case, const Plan& plan) {
     return best;
 }
 
-/// One case of one run. A failure is in the outcome, so that the other cases go on.
+/// Runs one case once. A failure is in the outcome, so that the other cases continue.
 Outcome measure_once(const Case& bench_case, const Plan& plan) {
     Outcome outcome;
     try {
@@ -134,17 +135,17 @@ Outcome measure_once(const Case& bench_case, const Plan& plan) {
     return outcome;
 }
 
-/// What the runs of a case have brought so far.
+/// The results of the runs of a case so far.
 struct RowRuns {
     std::vector<Summary> summaries;
     std::string failure; ///< of the last run that failed
 };
 
-/// Failed or not, it takes its place in row.runs.
+/// Appends a result to row.runs, also if the run failed.
 void add_run(Row& row, RowRuns& runs, Outcome outcome) {
     if (!outcome.failure.empty()) {
         runs.failure = outcome.failure;
-        row.runs.push_back(NAN); // keeps the place: ratios are formed run by run
+        row.runs.push_back(NAN); // keeps the position: ratios are formed run by run
         return;
     }
     runs.summaries.push_back(summarize(std::move(outcome.samples)));
@@ -161,7 +162,7 @@ void add_run(Row& row, RowRuns& runs, Outcome outcome) {
     row.tick_counts->add(*outcome.tick_counts);
 }
 
-/// A row without figures, under the name that all cases of the peer begin with.
+/// Returns a row without figures, under the name with which all cases of the peer begin.
 Row skipped_row(const SkippedPeer& peer) {
     Row row;
     row.id = "peer/" + peer.subject;
@@ -171,40 +172,41 @@ Row skipped_row(const SkippedPeer& peer) {
     return row;
 }
 
-/// Sums the runs up. A case without a single good run is skipped, with the reason of the last.
+/// Summarizes the runs. A case without any successful run is skipped, with the reason of the last failure.
 void finish_row(Row& row, const std::vector<Summary>& summaries, const std::string& failure) {
     row.summary = median_of(summaries);
     row.skipped = !summaries.empty() ? "" : failure.empty() ? "not measured" : failure;
 }
 
-/// What disturbs a guest lasts for some seconds: measurements without a pause between them would all meet it. Ends early after an
-/// interrupt.
+/// Pauses, because a disturbance of a guest lasts for some seconds and would affect all measurements without
+/// a pause between them. Ends early after an interrupt.
 void pause_for(double seconds) {
     for (int i = 0; i < seconds * 10 && !interrupted(); ++i)
         std::this_thread::sleep_for(std::chrono::milliseconds(100));
 }
 
-/// The rows of a plan's cases, which are measured run by run. Cases are named by their index in the plan.
+/// The rows of a plan's cases, which are measured run by run. A case is identified by its index in the plan.
 class Runs {
   public:
     explicit Runs(const Plan& plan) : plan_(plan), runs_(plan.cases.size()) {
         report_.machine = this_machine();
         for (const Case& entry : plan.cases) report_.rows.push_back(empty_row(entry, plan.cores));
     }
-    /// The cases one after the other, until an interrupt. `name` is what the progress calls this run: "run 1/5".
+    /// Measures the cases one after the other, until an interrupt. `name` is the name of the run in the
+    /// progress line: "run 1/5".
     void measure(const std::vector<std::size_t>& cases, const std::string& name, bool again) {
         for (std::size_t n = 0; n < cases.size() && !interrupted(); ++n) {
             const std::size_t i = cases[n];
             if (plan_.progress) // \r and "erase line": one line that is overwritten
                 fmt::print(stderr, "\r\033[K[{}, {}/{}] {}", name, n + 1, cases.size(), report_.rows[i].id);
-            // What cannot be measured here is not tried, and has no runs.
+            // Cases that this machine cannot measure are not tried, and have no runs.
             runs_[i].failure = unmet_requirement(plan_.cases[i], plan_.cores);
             if (!runs_[i].failure.empty()) continue;
             add_run(report_.rows[i], runs_[i], measure_once(plan_.cases[i], plan_));
             report_.rows[i].measured_again += again ? 1 : 0;
         }
     }
-    /// Of all runs so far.
+    /// Over all runs so far.
     const Report& sum_up() {
         for (std::size_t i = 0; i < runs_.size(); ++i)
             finish_row(report_.rows[i], runs_[i].summaries, interrupted() ? "interrupted" : runs_[i].failure);
@@ -217,7 +219,8 @@ class Runs {
     std::vector<RowRuns> runs_;
 };
 
-/// The cases that these limits refer to, in the order of the plan: the two of a ratio remain neighbours.
+/// Returns the cases that these limits refer to, in the order of the plan, so that the two cases of a ratio
+/// remain neighbours.
 std::vector<std::size_t> cases_of(const std::vector<AcceptanceLimit>& limits, const Plan& plan) {
     std::vector<std::size_t> cases;
     for (std::size_t i = 0; i < plan.cases.size(); ++i)
@@ -242,7 +245,7 @@ std::vector<Case> selected(const std::vector<Case>& cases, const std::string& pa
     return out;
 }
 
-// The processor's name is what /proc/cpuinfo says; of some processors it says none.
+// /proc/cpuinfo names some processors, but not all.
 Machine this_machine() {
     Machine machine;
     utsname name{};
@@ -262,7 +265,8 @@ Machine this_machine() {
 }
 
 Report measure(const Plan& plan) {
-    // With a single run before them three values: their median is none that came by chance once.
+    // With a single run before, there are three values, whose median is not a value that occurred once by
+    // chance.
     constexpr int times_again = 2;
     Runs runs(plan);
     std::vector<std::size_t> all(plan.cases.size());

@@ -47,7 +47,7 @@ class InputRelay {
     void send(const char* text, std::size_t size);
 
     int source_;                             ///< -1 after its end
-    std::unique_ptr<UserTerminal> terminal_; ///< may be null: the source is none
+    std::unique_ptr<UserTerminal> terminal_; ///< null if the source is not a terminal
     std::vector<Receiver> receivers_;
 };
 

@@ -28,7 +28,7 @@ std::unique_ptr<UserTerminal> UserTerminal::open(int descriptor) {
     process::FileDescriptor terminal(::open(fmt::format("/proc/self/fd/{}", descriptor).c_str(),
                                             O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
     if (!terminal) return nullptr;
-    // The shell may take the foreground between the look at it and the change of settings.
+    // The shell may take the foreground between this check and the change of settings.
     std::signal(SIGTTOU, SIG_IGN);
     return std::unique_ptr<UserTerminal>(new UserTerminal(std::move(terminal), settings));
 }

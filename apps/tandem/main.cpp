@@ -28,7 +28,6 @@ int main(int argc, char** argv) {
     CLI::App app{"Inspects, builds and controls components and links of Tandem hosts on this machine.",
                  "tandem"};
     app.require_subcommand(1);
-    app.failure_message(tandem::options::usage_error);
     app.set_version_flag("--version", std::string("tandem ") + tandem::version);
     app.footer(
         "Run tandem COMMAND --help for the help of a command. On a new machine, run tandem doctor first.\n"
@@ -52,11 +51,7 @@ int main(int argc, char** argv) {
     tandem::command::add_examples(app);
     // Exceeding the file size limit makes write() fail instead of ending the process.
     std::signal(SIGXFSZ, SIG_IGN);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& result) { // also --help and --version, with exit code 0
-        return app.exit(result);
-    }
+    if (const auto result = tandem::options::parse(app, argc, argv)) return *result;
     int exit_code = 1;
     try {
         exit_code = selected();

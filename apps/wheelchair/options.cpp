@@ -44,7 +44,8 @@ void add_host_options(CLI::App& app, Options& o, std::optional<double>& spin,
                       std::optional<std::string>& wait, bool& idle, bool& lock) {
     app.add_option("--opros-cpu", o.opros_cpu, "core for opros_host's tick threads");
     app.add_option("--rtm-cpu", o.rtm_cpu, "core for rtm_host's tick threads");
-    app.add_option("--tick-spin", spin, "both hosts poll for this time before each tick [us] [100]");
+    app.add_option("--tick-spin", spin,
+                   "both hosts poll for this time before each tick [us] (100 while messages flow)");
     app.add_option("--wait-mode", wait, "how both hosts wait for each other's calls");
     app.add_flag("--low-latency-idle", idle, "both hosts keep the cores out of deep sleep states");
     app.add_flag("--lock-memory", lock, "both hosts lock their memory");
@@ -112,12 +113,7 @@ Options parse_options(int argc, char** argv) {
     add_host_options(app, o, spin, wait, idle, lock);
     app.footer("Examples:\n  $ wheelchair --plot run.svg\n  $ wheelchair --config split --lockstep --record "
                "run.mcap");
-    app.failure_message(tandem::options::usage_error);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& e) {
-        std::exit(app.exit(e));
-    }
+    if (const auto exit_code = tandem::options::parse(app, argc, argv)) std::exit(*exit_code);
     o.configuration = configurations.at(configuration);
     if (o.drive && o.configuration == Configuration::memory) {
         std::fputs("wheelchair: --drive needs hosts; choose a --config other than memory\n", stderr);

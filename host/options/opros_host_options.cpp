@@ -17,27 +17,23 @@ std::optional<OprosHostOptions> parse_opros_host_options(int argc, char** argv, 
     cli.add_option("--plugin-path", options.plugin_dirs, "Folder with component libraries (repeatable)")
         ->allow_extra_args(false);
     cli.add_option("--lockstep", options.lockstep_socket,
-                   "Step components through this socket, no executors");
+                   "Path of a Unix socket at which a driver requests each cycle; nothing runs on timers");
     cli.add_option("--node", options.node,
                    "Run only the components with this <node_id>, and those without one")
         ->type_name("ID");
-    cli.add_flag("--strict", options.strict,
-                 "Do not run without a component that fails to load, initialize or start, or a connection");
+    cli.add_flag(
+        "--strict", options.strict,
+        "End if a component cannot be loaded, initialized or started, or a connection cannot be made");
     cli.add_option("--grace", options.grace_s,
-                   "Seconds that the end waits for each callback of a component to return")
+                   "Time limit for each callback of a component when the host ends, in seconds (10)")
         ->check(number_between(0.01, 3600.));
     cli.add_flag("--stats", options.stats, "Print the executors' ticks and overruns at the end");
     add_library_probe_options(cli, options.probe);
     add_real_time_options(cli, options.real_time);
     cli.footer("Examples:\n  $ opros_host robot.xml\n  $ opros_host robot.xml --strict --lock-memory");
-    cli.failure_message(usage_error);
-    try {
-        cli.parse(argc, argv);
-        return options;
-    } catch (const CLI::ParseError& error) {
-        exit_code = cli.exit(error);
-        return std::nullopt;
-    }
+    const auto result = parse(cli, argc, argv);
+    exit_code = result.value_or(0);
+    return result ? std::nullopt : std::optional(options);
 }
 
 } // namespace tandem::options

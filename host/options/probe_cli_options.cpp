@@ -17,8 +17,7 @@ std::optional<plugin::ProbeOptions> ProbeCliOptions::probe_options() const {
 void add_library_probe_options(CLI::App& cli, ProbeCliOptions& options) {
     cli.add_flag("--no-probe", options.disabled,
                  "Load libraries without trying them in a child process first");
-    cli.add_option("--probe-timeout", options.timeout_s,
-                   "Seconds within which a library that is tried must make its components (10)")
+    cli.add_option("--probe-timeout", options.timeout_s, "Time limit for trying a library, in seconds (10)")
         ->check(number_between(0.1, 3600.));
 }
 

@@ -29,19 +29,14 @@ std::optional<RtmHostOptions> parse_rtm_host_options(int argc, char** argv, int&
                    "additional folder of component libraries (repeatable)")
         ->allow_extra_args(false);
     cli.add_option("--grace", options.grace_s,
-                   "seconds that the end waits for a callback of a component to return (10)")
+                   "time limit for each callback of a component when the host ends, in seconds (10)")
         ->check(number_between(0.01, 3600.));
     add_library_probe_options(cli, options.probe);
     add_real_time_options(cli, options.real_time);
     cli.footer("Examples:\n  $ rtm_host -f rtc.conf\n  $ rtm_host -d -o logger.log_level:DEBUG");
-    cli.failure_message(usage_error);
-    try {
-        cli.parse(argc, argv);
-        return options;
-    } catch (const CLI::ParseError& error) {
-        exit_code = cli.exit(error);
-        return std::nullopt;
-    }
+    const auto result = parse(cli, argc, argv);
+    exit_code = result.value_or(0);
+    return result ? std::nullopt : std::optional(options);
 }
 
 } // namespace tandem::options

@@ -53,4 +53,14 @@ std::string usage_error(const CLI::App* app, const CLI::Error& error) {
     return text::printable_line(command + ": " + reason(*app, error) + "; see " + command + " --help") + "\n";
 }
 
+std::optional<int> parse(CLI::App& app, int argc, char** argv) {
+    app.failure_message(usage_error);
+    try {
+        app.parse(argc, argv);
+        return std::nullopt;
+    } catch (const CLI::ParseError& result) {
+        return app.exit(result);
+    }
+}
+
 } // namespace tandem::options

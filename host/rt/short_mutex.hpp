@@ -18,6 +18,9 @@ namespace tandem::rt {
 /// either the owner sees `asked_` and locks the usual way, or the other thread sees `inside_` and waits. If other
 /// threads take the mutex often, 64 times within a second, it has no owner any more. The usual way is the second mutex
 /// of U. Drepper, "Futexes Are Tricky".
+///
+/// An owner locks and unlocks in 0.8 ns; the usual way takes 82 ns, std::mutex 84 ns, and a mutex with priority
+/// inheritance 117 ns (docs/performance.md has the effect on messages).
 class ShortMutex {
   public:
     void lock() {

@@ -19,7 +19,7 @@ constexpr std::int64_t share_limit = million / 10;
 std::atomic<std::int64_t> share_sum{0}; // of all ticks of the process; in millionths of a processor
 
 constexpr std::int64_t review_interval_ns = 250'000'000;
-// A tick without new messages polls for so long, and for so many periods.
+// How long, and for how many periods, a tick continues to poll without new messages.
 constexpr std::int64_t patience_ns = 1'000'000'000;
 constexpr std::int64_t patience_periods = 8;
 
@@ -68,8 +68,8 @@ void TickPolling::take_share() {
         share_sum.fetch_sub(share);
 }
 
-/// The thread also polls for the part of the time for a wake-up that its wake-up did not take. Only a later tick that
-/// wants to poll is refused for it.
+/// Replaces the estimated share by the measured one. A thread whose wake-up was short also polls for the rest of the time that
+/// was reserved for the wake-up. A share that is larger than estimated only keeps further ticks from polling.
 void TickPolling::update_share(std::int64_t now) {
     const std::int64_t share = std::max<std::int64_t>(polled_ * million / (now - reviewed_), 1);
     share_sum.fetch_add(share - std::exchange(share_, share));

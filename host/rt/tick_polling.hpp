@@ -8,9 +8,9 @@
 
 namespace tandem::rt {
 
-/// Decides how long before a tick its thread wakes up to poll and to rehearse. With a time that a user has chosen, always
-/// so long. By default only while messages cross at the places that a rehearsal reaches (note_crossings()), and only while
-/// the default ticks of the process together poll for at most a tenth of a processor. All times in ns. [tick-thread]
+/// Decides how long before a tick its thread wakes up to poll and to rehearse. A time that the user has chosen always applies.
+/// By default, a thread polls only while messages cross at the places that a rehearsal reaches (note_crossings()), and only
+/// while all such threads of the process together use at most a tenth of a processor. All times in ns. [tick-thread]
 class TickPolling {
   public:
     /// `spin` as in TickOptions. Without `rehearse`, a default tick never polls.
@@ -20,7 +20,7 @@ class TickPolling {
     TickPolling(const TickPolling&) = delete;
     TickPolling& operator=(const TickPolling&) = delete;
 
-    /// Looks from time to time whether messages have crossed since the last look. Call it before each sleep.
+    /// Checks from time to time whether messages have crossed since the last check. Call it before each sleep.
     void review(std::int64_t now);
     /// Returns how long before a tick the sleep ends.
     std::int64_t lead() const;

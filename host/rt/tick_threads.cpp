@@ -12,7 +12,7 @@
 namespace tandem::rt {
 namespace {
 
-// A second thread for equal options begins when the first one has so many members.
+// Number of members of a thread at which a second thread for equal options starts.
 constexpr std::size_t full_thread = 32;
 constexpr std::chrono::milliseconds watch_interval{10};
 

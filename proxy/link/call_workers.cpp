@@ -91,13 +91,14 @@ std::optional<shm::IncomingCall> CallWorkers::take_call() const {
                                                                 : shm::longest_wait);
 }
 
-/// `idle`: workers that remain for further calls. Costs nothing while no worker could end.
+/// Records that workers were needed, if few were idle. `idle`: workers that remain for further calls. Costs nothing while no
+/// worker could end.
 inline void CallWorkers::note_need(unsigned idle) {
     if (count_.load(std::memory_order_relaxed) > kept_workers && idle <= 1) [[unlikely]]
         needed_ = Clock::now();
 }
 
-/// Returns whether the calling worker, which counts as not idle, is to end.
+/// Returns whether the calling worker, which does not count as idle, should end.
 inline bool CallWorkers::ends_this_worker() {
     if (count_.load(std::memory_order_relaxed) <= kept_workers) [[likely]]
         return false;

@@ -12,7 +12,7 @@
 namespace tandem::shm {
 namespace {
 
-/// Calls `copy(done)`, which moves bytes behind the first `done` ones, until all are moved. Returns false if it moves none.
+/// Calls `copy(done)`, which moves bytes after the first `done` ones, until all are moved. Returns false if it moves none.
 template <class Copy>
 bool copy_all(std::size_t bytes, Copy&& copy) {
     for (std::size_t done = 0; done < bytes;) {

@@ -14,7 +14,7 @@ struct CallLoans {
 
     /// Copies a payload to the slot's loan, which gets memory for it. Returns false, without a loan, if there is none.
     bool write(std::uint32_t slot, const void* from, std::size_t bytes) const;
-    /// Returns whether the slot's loan has memory for so many bytes. The peer may claim more than it has written.
+    /// Returns whether the slot's loan has memory for this number of bytes. The peer may claim more than it has written.
     bool has(std::uint32_t slot, std::size_t bytes) const;
     /// Copies a payload out of the slot's loan. Returns false if the file is too short.
     bool read(std::uint32_t slot, void* to, std::size_t bytes) const;

@@ -5,7 +5,7 @@
 
 namespace tandem::shm {
 
-/// Returns whether a payload of so many bytes in a slot's loan exceeds the limit. Writing it would end the process with
+/// Returns whether a payload of this size in a slot's loan exceeds the limit. Writing it would end the process with
 /// SIGXFSZ.
 bool exceeds_file_limit(const CallLoans& loans, std::uint32_t slot, std::size_t bytes);
 

@@ -122,7 +122,7 @@ void CallFollower::look_at(std::uint32_t index, CallActivity activity, std::vect
                       answered}});
 }
 
-/// Returns false if no process can have stored so many bytes in the file. Arguments and results of a call share a buffer, so
+/// Returns false if no process can have stored this number of bytes in the file. Arguments and results of a call share a buffer, so
 /// all copies together are at most twice as long as the memory of the file.
 bool CallFollower::make_room(std::vector<std::uint64_t>& memory, std::uint64_t bytes) {
     const std::uint64_t words = round_up(bytes, word_bytes) / word_bytes, before = memory.size();

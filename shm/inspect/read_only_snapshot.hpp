@@ -28,7 +28,7 @@ class ReadOnlySnapshot {
     explicit operator bool() const { return static_cast<bool>(file_); }
     int fd() const { return file_.get(); }
 
-    /// Copies to.size() bytes from `offset`. Returns false if the file ends before. The loads of one copy come before those of
+    /// Copies to.size() bytes from `offset`. Returns false if the file ends earlier. The loads of one copy precede those of
     /// the next.
     bool read(std::uint64_t offset, std::span<std::byte> to) const {
         if (offset > static_cast<std::uint64_t>(INT64_MAX) - to.size()) return false;

@@ -87,7 +87,7 @@ bool RingFollower::may_have_come() {
     return true;
 }
 
-/// Returns room for a copy; empty if no process can have stored so many bytes in the file. Asks only when the memory must
+/// Returns room for a copy; empty if no process can have stored this number of bytes in the file. Asks only when the memory must
 /// grow, so sharing it bounds the memory of all followers of a segment by the memory of its file.
 std::span<std::byte> RingFollower::make_room(std::vector<std::uint64_t>& memory, std::uint64_t bytes) const {
     const std::uint64_t words = round_up(bytes, word_bytes) / word_bytes;

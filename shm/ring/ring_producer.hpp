@@ -61,7 +61,7 @@ class alignas(layout::line_pair) RingProducer {
     /// Counts a message that its sender could not create as sent and dropped. Returns false.
     bool refuse();
 
-    /// Publishes a message of up to max_record bytes if it fits behind the last one, without reserve() and commit().
+    /// Publishes a message of up to max_record bytes if it fits after the last one, without reserve() and commit().
     /// Returns false, without side effects, if it does not fit, if that is not known yet, or if its age is to be measured.
     /// `readable_behind`: up to 48 bytes behind `bytes` are readable and may be copied, too.
     bool write_behind_last(const void* bytes, std::size_t count, std::uint64_t stamp, bool readable_behind);

@@ -189,7 +189,7 @@ void announce_change(int fd) { futimens(fd, nullptr); }
 
 namespace {
 
-/// Throws Error unless this process means by the bytes of the segment what the one means that has made it.
+/// Throws Error unless this process and the creator of the segment interpret its bytes in the same way.
 void check_layout(const layout::SegmentHeader& header, const std::string& path) {
     const auto refuse = [&](const std::string& theirs, const std::string& ours) {
         throw Error(path + ": has " + theirs + ", this process has " + ours +

@@ -50,6 +50,12 @@ class Includes(unittest.TestCase):
         self.assertEqual(len(self.faults("host/rtm/runtime/execution/execution_cycle.cpp", header)), 1)
         self.assertEqual(len(self.faults("host/rtm/runtime/new_room/a.cpp", header)), 2)
 
+    def test_the_table_of_the_page_lacks_no_room_that_may_be_included(self):
+        page = "| `host/log` | the log of a host | `host/text`, `shm/os` |\n"
+        self.assertEqual(list(check_includes.table_faults(page)), [])
+        self.assertEqual(list(check_includes.table_faults(page.replace("`host/text`, ", ""))),
+                         ["docs/architecture.md: host/log may include host/text, which the table lacks"])
+
     def test_no_room_reaches_itself_over_others(self):
         for start in check_includes.ALLOWED:
             reached, open_rooms = set(), [start]

@@ -35,7 +35,7 @@ const std::vector<WorkerScenario> workers = {
     {"closing and dropping what waits", 8, false, true},
 };
 
-/// What IncomingCall::State does, with points.
+/// The work of IncomingCall::State, with points.
 void serve(const BasicCallView<CrashPointAtomics>& view, const WorkerScenario& scenario) {
     Worker worker(view);
     worker.open();

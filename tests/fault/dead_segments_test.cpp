@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the killed leave in /dev/shm, and who removes it. Runs alone: what other tests have killed would go as well.
+// What killed processes leave in /dev/shm, and who removes it. Runs alone, because it would also remove the
+// leftovers of other tests.
 #include "host/process/run_command.hpp"
 #include "shm/segment/dead_segments.hpp"
 #include "tests/shm/fixture.hpp"

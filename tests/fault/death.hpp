@@ -33,7 +33,7 @@ class Doomed {
         if (!result_) result_ = child_.wait();
         return *result_ == Child::killed;
     }
-    /// Anything else than 0 is an error of its own: it neither died at a point nor came to a good end.
+    /// Any value other than 0 is an error of the child: it neither died at a point nor ended successfully.
     int error() { return died() ? 0 : *result_; }
     std::string point() const { return points_->name; }
 
@@ -43,7 +43,7 @@ class Doomed {
     Child child_;
 };
 
-/// The peer is dead; the link goes on in the next generation, and nothing is left when all have gone.
+/// The peer is dead. The link continues in the next generation, and nothing is left when all have left.
 inline void check_that_the_link_goes_on(const Link& link, std::unique_ptr<Segment>& survivor) {
     const Side side = survivor->side();
     CHECK(survivor->peer_state() == PeerState::dead);

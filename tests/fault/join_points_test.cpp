@@ -20,7 +20,7 @@ void leave_a_corpse(const Link& link, Side side) {
 struct Scenario {
     const char* name;
     bool survivor;    // is the other side there all the time?
-    bool corpse;      // is there a dead generation?
+    bool corpse;      // a dead generation exists
     bool joined;      // is the side that dies there already, when the points begin?
     const char* what; // join, leave, join and leave
 };

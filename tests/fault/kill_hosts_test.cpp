@@ -62,7 +62,7 @@ class LoadedHosts : public TwoHosts {
         return host == "opros" ? (*counts_).opros : (*counts_).rtm;
     }
 
-    /// Whether both sides have got messages of each other's present life.
+    /// Returns whether both sides have received messages of the other's present life.
     bool flows() const {
         const auto &opros = counts("opros"), &rtm = counts("rtm");
         return opros.first_received_ns != 0 && rtm.first_received_ns != 0 && opros.peer_life == rtm.lives &&
@@ -129,7 +129,7 @@ class StallWatch {
 
 std::string other(const std::string& host) { return host == "opros" ? "rtm" : "opros"; }
 
-/// What a message that was sent has become, of all generations that one host's death has ended.
+/// What became of the sent messages, over all generations that the death of one host ended.
 struct Balance {
     std::uint64_t sent = 0, received = 0, dropped = 0, untaken = 0, generations = 0;
     std::vector<std::string> faults;

@@ -30,7 +30,7 @@ bool write(Writer& writer, std::uint64_t number, std::size_t words) {
     return writer.write(payload.data(), 8 * words, number);
 }
 
-/// As a component does it: makes the payload in the memory that was reserved, and commits less than that.
+/// Writes like a component: creates the payload in the reserved memory, and commits less than that.
 void write_reserved(Producer& producer, std::uint64_t number, std::size_t words, std::size_t used) {
     std::vector<std::uint64_t> scratch(words);
     std::uint64_t* room = scratch.data();
@@ -52,7 +52,7 @@ RingOptions options_of(Side writer) {
     return {.writer = writer, .max_record = 200, .capacity = 1024, .chunk_bytes = chunk_bytes, .chunks = 2};
 }
 
-/// What was written to the ring before, by sizes in words, and how many of these are read again.
+/// The records that were written before, as sizes in words, and how many of them are read again.
 struct Before {
     std::vector<std::size_t> written;
     std::size_t read = 0;

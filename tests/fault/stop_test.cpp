@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A side that is stopped for a while: not dead, and afterwards it goes on as if nothing had been.
+// A side that is stopped for a while: it is not dead, and afterwards it continues as if nothing had happened.
 #include "../shm/fixture.hpp"
 #include "shared.hpp"
 

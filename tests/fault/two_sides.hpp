@@ -79,7 +79,7 @@ class Visit {
         if (reader_->corrupt() || writer_.corrupt()) ++noted_.wrong;
     }
 
-    /// Begins a call in a thread of its own, or takes its reply if it has come.
+    /// Begins a call in a separate thread, or takes its reply if it has arrived.
     void exchange_call() {
         const std::string text = std::to_string(asked_);
         if (!pending_.valid()) {

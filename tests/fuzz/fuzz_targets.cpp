@@ -217,7 +217,8 @@ void FuzzTargets::call(Input& input) {
     Mutator::restrain();
 }
 
-/// The same queue from the other end: it lies in the arena of the first side, but a worker's view has no side.
+/// The other end of the same queue. The queue is in the arena of the first side, but a worker's view has no
+/// side.
 void FuzzTargets::serve(Input& input) {
     Mutator::unleash(input, queue_.hostile, slots_at);
     const auto view = victim_->find_call_queue(Side::first, "c")->view;

@@ -89,12 +89,13 @@ class HostileLink {
     std::vector<std::byte> pristine_;
 };
 
-/// As `tandem echo` does.
+/// Does the same as `tandem echo`.
 void show(const command::LinkFollower::Port& port, const shm::FollowedRecord& record) {
     try {
         command::message_to_json(port, record.bytes, record.stamp)
             .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-    } catch (const std::exception&) { // bytes that are no value of the type; echo prints them in hexadecimal
+    } catch (
+        const std::exception&) { // bytes that are not a value of the type; echo prints them in hexadecimal
     }
     command::message_idl(port);
 }

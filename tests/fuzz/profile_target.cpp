@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes as each kind of OPRoS profile: a profile, or one line that says what is wrong.
+// Arbitrary bytes as each kind of OPRoS profile: the result is a profile, or one line with the error.
 #include "host/opros/engine/profile/start_order.hpp"
 #include "host/opros/engine/profile/type_profile.hpp"
 #include "host/opros/engine/profile/xml_file.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What does not fit is refused at set-up: one line that says what, where and what to do, and a non-zero exit.
+// Unfit input is refused at set-up: one line with the fault, the place and the remedy, and a non-zero exit
+// code.
 #include "two_hosts.hpp"
 
 #include <catch2/catch.hpp>

@@ -33,7 +33,8 @@ struct ChangingHosts : TwoHosts {
             if (ring["name"] == "port " + name) return ring;
         return {};
     }
-    /// Whether everything that `sender` has sent by that port was received once it rests, but for what was skipped before.
+    /// Returns whether everything that `sender` had sent by that port was received when it paused, except for
+    /// skipped messages.
     bool is_complete(const std::string& name, const std::string& sender, int skipped = 0) const {
         for (int i = 0; i < 1500 && ring(name)["sent"] == 0; ++i)
             std::this_thread::sleep_for(std::chrono::milliseconds(20));
@@ -53,7 +54,7 @@ struct ChangingHosts : TwoHosts {
     bool has_said(const std::string& host, const std::string& text) const {
         return output(host).find(text) != std::string::npos;
     }
-    /// Whether that was said after the last call of forget_output().
+    /// Returns whether this was printed after the last call of forget_output().
     bool now_says(const std::string& host, const std::string& text) { return says(host, text, seen_[host]); }
     void forget_output() {
         for (const char* host : {"opros", "rtm"}) seen_[host] = output(host).size();

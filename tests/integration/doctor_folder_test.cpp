@@ -29,7 +29,7 @@ std::vector<Json> checks_of(const ScratchFolder& folder, const std::string& name
     return found;
 }
 
-/// What is to be done about the one check of that name, which must be an error.
+/// Returns the advice of the only check of that name, which must be an error.
 std::string advice_of(const ScratchFolder& folder, const std::string& name) {
     const auto checks = checks_of(folder, name);
     REQUIRE(checks.size() == 1);

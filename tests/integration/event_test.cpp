@@ -85,7 +85,7 @@ TEST_CASE(
     hosts.start_rtm();
     hosts.start_opros();
     INFO(hosts.output("opros") + hosts.output("rtm"));
-    // Of each round: start does nothing before the minutes are set, and the last of two ticks ends it.
+    // In each round, start has no effect before the minutes are set, and the last of two ticks ends it.
     CHECK(hosts.says(
         "rtm", "oven: idle\noven: 2 minutes, a time\noven: heating\noven: tick\noven: tick\noven: idle\n"));
     CHECK(hosts.says(

@@ -59,7 +59,7 @@ struct WaitingHosts : TwoHosts {
 
     /// Has WaitComp ask WaitRtc about a word.
     void ask(const std::string& word) const { std::ofstream(pipe()) << word << std::endl; }
-    /// Whether it has got both the reply and, through its input port, the word.
+    /// Returns whether it has received both the reply and, through its input port, the word.
     bool is_answered(const std::string& word) const {
         return says("opros", "pages: 5 of " + word + "\n") && says("opros", "reply: " + word + "\n");
     }

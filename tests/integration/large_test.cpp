@@ -78,7 +78,8 @@ TEST_CASE("pictures of 25 cameras with any bpp go to a component that trusts the
     TwoHosts hosts;
     hosts.set_talker("GalleryComp");
     hosts.set_rtc("GalleryRtc");
-    hosts.set_adaptor_property("ring_kib", "8192"); // for all of them: none gives way to a newer one
+    hosts.set_adaptor_property("ring_kib",
+                               "8192"); // room for all of them, so none is dropped for a newer one
     hosts.set_interceptor("rtc=GalleryRtc0&ring_kib=8192");
     hosts.set_connections(TwoHosts::connection("data", "Adaptor", "camera", "Talker", "camera") +
                           TwoHosts::connection("data", "Talker", "shown", "Adaptor", "shown"));

@@ -9,7 +9,7 @@ struct GuestHosts : ChangingHosts {
         set_rtc("GuestRtc");
         set_interceptor("rtc=GuestRtc0");
     }
-    /// Whether each kind of port carries something now, in each direction.
+    /// Returns whether each kind of port now carries something, in each direction.
     void check_all_cross() {
         forget_output();
         CHECK(now_says("opros", "Guest event: answer to hot "));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// As many links in one pair of hosts as a user is told that there may be.
+// The largest number of links in one pair of hosts that the documentation promises.
 #include "two_hosts.hpp"
 
 #include "tests/support/context_switches.hpp"
@@ -47,7 +47,7 @@ std::uintmax_t memory_of(const std::filesystem::path& file) {
                                             : UINTMAX_MAX;
 }
 
-/// What a process has in memory, shared memory included, in bytes.
+/// Returns the memory of a process, including shared memory, in bytes.
 std::uintmax_t resident_memory(pid_t process) {
     std::ifstream file("/proc/" + std::to_string(process) + "/smaps_rollup");
     for (std::string line; std::getline(file, line);)
@@ -55,7 +55,7 @@ std::uintmax_t resident_memory(pid_t process) {
     return 0;
 }
 
-/// Of the two hosts of that many idle links, once they are ready.
+/// Returns the memory of the two hosts of this number of idle links, once they are ready.
 std::map<std::string, std::uintmax_t> memory_with_idle_links(int number_of_links) {
     ManyLinks hosts(number_of_links, true);
     hosts.start_rtm();
@@ -70,7 +70,7 @@ std::map<std::string, std::uintmax_t> memory_with_idle_links(int number_of_links
     return memory;
 }
 
-/// Of the threads that watch the links of a host.
+/// Returns the context switches of the threads that watch the links of a host.
 long supervisor_switches(pid_t host) {
     long sum = 0;
     for (const auto& [thread, count] : tandem::test::count_context_switches(host))

@@ -83,7 +83,7 @@ TEST_CASE("two pairs of hosts with two links each share their RTCs at the same t
     CHECK(pairs[0].says("opros", "link '" + pairs[0].link() + "' is down"));
     CHECK(pairs[0].says("opros", "link '" + pairs[0].link() + "-2' is down"));
     const auto before = pairs[1].output("opros").size();
-    CHECK(pairs[1].says("opros", "Motor torque 2.", before)); // the other pair goes on
+    CHECK(pairs[1].says("opros", "Motor torque 2.", before)); // the other pair continues
     CHECK(pairs[0].stop("opros") == 0);
     CHECK(pairs[1].stop_both());
     for (const auto& hosts : pairs) CHECK_FALSE(hosts.left_in_shared_memory());

@@ -33,7 +33,7 @@ class Run {
     }
     const ScratchFolder& folder() const { return folder_; }
 
-    /// What the run writes to its standard output goes to this file, instead of to what output() returns.
+    /// Makes the run write its standard output to this file instead of to output().
     void set_output(const std::string& file) { output_file_ = file; }
     void start(const std::vector<std::string>& arguments = {}) {
         std::vector<std::string> command{TANDEM_PROGRAM, "run", "joined"};
@@ -86,7 +86,7 @@ class Run {
     std::optional<tandem::process::ChildProcess> process_;
 };
 
-/// What systemd has for a service of Type=notify with WatchdogSec=1: a socket, and its name in the environment.
+/// The environment of a service of Type=notify with WatchdogSec=1: a socket, and its name in a variable.
 class NotifySocket {
   public:
     explicit NotifySocket(const std::string& path) : fd_(socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
@@ -110,7 +110,7 @@ class NotifySocket {
         const auto length = recv(fd_, text, sizeof text, 0);
         return length > 0 ? std::string(text, static_cast<std::size_t>(length)) : "";
     }
-    /// As a service manager that reads nothing for a while.
+    /// Behaves like a service manager that reads nothing for a while.
     void fill(const std::string& path) const {
         sockaddr_un address{};
         address.sun_family = AF_UNIX;
@@ -119,7 +119,7 @@ class NotifySocket {
                       sizeof address) == 1) {
         }
     }
-    /// Whether the message comes, behind any others.
+    /// Returns whether the message arrives, also after others.
     bool tells(const std::string& wanted) {
         for (std::string message; !(message = next()).empty();)
             if (message == wanted) return true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A temporary folder with the test components in folders of their own, as users have them.
+// A temporary folder with the test components, each in a separate folder, as users have them.
 #pragma once
 
 #include "host/process/run_command.hpp"

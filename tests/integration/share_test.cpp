@@ -30,7 +30,7 @@ struct Shared : TwoHosts {
         UNSCOPED_INFO(result.output << result.errors);
         return result.exit_code == 0 && result.output_contains(expected);
     }
-    /// Whether `tandem rtm list` comes to show the component in that state; "": not at all.
+    /// Returns whether `tandem rtm list` soon shows the component in that state; "": not at all.
     bool shows(const std::string& component, const std::string& state) const {
         std::string last;
         for (int i = 0; i < 1500; ++i) {
@@ -335,7 +335,7 @@ TEST_CASE("a required service connected by the application is not shared") {
     hosts.start();
     CHECK(hosts.says("opros", "port 'Reader.dictionary' is not shared: the application connects it"));
     CHECK(hosts.says("opros",
-                     "pages: 2 last 5")); // of Shelf, whose next answer is an exception of its own kind
+                     "pages: 2 last 5")); // from Shelf, whose next answer is a user-defined exception
 }
 
 TEST_CASE("a client of Foxglove's protocol publishes to a shared OPRoS component and sets its properties") {

@@ -73,7 +73,7 @@ TEST_CASE("an RTC that hangs too long in onDeactivated is named, and is reactiva
         CHECK(hosts.says(
             "rtm", rtc + " is still deactivating; it is activated when its onDeactivated has returned"));
     }
-    CHECK(hosts.says("opros", "reply: hello", before_opros)); // the link goes on without them
+    CHECK(hosts.says("opros", "reply: hello", before_opros)); // the link continues without them
     for (const std::string rtc : {"HangRtc2", "HangRtc0"})
         CHECK_FALSE(hosts.has_said("rtm", rtc + " deactivated", before_rtm));
     hosts.release();

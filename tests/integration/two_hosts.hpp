@@ -27,7 +27,7 @@ class TwoHosts {
                                   const std::string& from_port, const std::string& to,
                                   const std::string& to_port);
     void set_connections(const std::string& xml) { connections_ = xml; }
-    /// The OPRoS component that is there as Talker.
+    /// The OPRoS component that is created as Talker.
     void set_talker(const std::string& component) { talker_ = component; }
     void set_talker_properties(const std::string& xml) { talker_properties_ = xml; }
     /// The RTC behind the bridge.
@@ -35,7 +35,7 @@ class TwoHosts {
     /// Properties of that RTC, as in `slow_ms=100`.
     void set_rtc_properties(const std::string& properties) { rtc_properties_ = "?" + properties; }
     void set_large_kib(const std::string& of_adaptor) { large_kib_ = of_adaptor; }
-    /// Whether one refused connection ends the OPRoS host.
+    /// If set, one refused connection ends the OPRoS host.
     void set_strict(bool strict) { strict_ = strict; }
     /// More properties of AdaptorComp.
     void set_adaptor_property(const std::string& name, const std::string& value);
@@ -48,11 +48,11 @@ class TwoHosts {
     void set_adaptor_properties(const std::string& xml) { adaptor_properties_ = xml; }
     /// Neither a Talker nor an RTC: the link has components of add_component() only.
     void leave_out_talker_and_rtc();
-    /// One more RTC, created after the others.
+    /// A further RTC, created after the others.
     void add_rtc(const std::string& type);
-    /// One more RTC, of a type that rtm_host has itself, created after the others.
+    /// A further RTC of a type that rtm_host itself has, created after the others.
     void add_built_in_rtc(const std::string& arguments) { rtc_properties_ += ", " + arguments; }
-    /// One more link, with an AdaptorComp of that name, for the RTC of that name.
+    /// A further link, with an AdaptorComp of that name, for the RTC of that name.
     void add_link(const std::string& adaptor, const std::string& rtc);
     /// A third host, with an rtc.conf of these lines.
     void start_another_rtm(const std::string& port, const std::string& lines);

@@ -35,7 +35,7 @@ void send_at_once(int fd) {
     setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
 }
 
-/// Sends back to the first who connects to the port what comes from there.
+/// Returns each message to its sender, the first component that connects to the port.
 void serve_tcp_echo(int port) {
     const int listener = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
     sockaddr_in any{};

@@ -192,7 +192,7 @@ TEST_CASE("an observer costs the data path neither a system call nor an allocati
         _exit(!*watched ? 1 : allocations == before ? 42 : 3);
         return 0;
     });
-    // What the monitor and the recorder do: read the counters, and copy messages beside the reader.
+    // The work of the monitor and the recorder: reads the counters, and copies messages beside the reader.
     const auto seen = observe(pair.link.name);
     REQUIRE(seen);
     RingFollower follower(std::make_shared<const ReadOnlySnapshot>(seen->segment.path), seen->rings.at(0));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the tests of this room share: links of their own, child processes, a look into /dev/shm, stress sizes.
+// Common parts of this room's tests: separate links, child processes, the content of /dev/shm, stress sizes.
 #pragma once
 #include "shm/segment.hpp"
 #include "tests/support/stress.hpp"
@@ -63,7 +63,7 @@ struct Pair {
 /// need be.
 class Child {
   public:
-    static constexpr int killed = -1, crashed = -2; ///< ends that are no exit
+    static constexpr int killed = -1, crashed = -2; ///< ends without an exit code
     explicit Child(const std::function<int()>& work) : pid_(fork()) {
         if (pid_ != 0) return;
         int code = 99;
@@ -92,7 +92,7 @@ class Child {
         pid_ = 0;
         return result_of(status);
     }
-    /// What wait() would return, if it has ended.
+    /// Returns what wait() would return, if the process has ended.
     std::optional<int> ended() {
         int status = 0;
         if (pid_ != 0 && waitpid(pid_, &status, WNOHANG) != pid_) return std::nullopt;

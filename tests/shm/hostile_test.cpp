@@ -42,7 +42,7 @@ std::byte* memory_of(const Segment& segment, Side half, const std::string& name)
     return nullptr;
 }
 
-/// All that a reader and a writer of a ring can do, a few times.
+/// Every operation of a reader and a writer of a ring, a few times.
 void use(RingReader& reader) {
     for (int i = 0; i < 20; ++i) {
         const auto record = i % 3 == 2 ? reader.read_newest() : reader.read();
@@ -239,7 +239,7 @@ TEST_CASE("while another process overwrites everything, nothing crashes, hangs o
         if (const auto record = reader->read_newest()) too_long += record->bytes.size() > 100 ? 1 : 0;
         too_long += client.call(bytes_of("argument"), 200us).bytes.size() > 64 ? 1 : 0;
         pair.second->doorbell().wait(1us);
-        try { // who gave up starts over, or the test would soon test nothing
+        try { // a side that gave up starts again; otherwise the test would soon test nothing
             if (reader->corrupt()) reader = std::make_unique<RingReader>(read);
             if (writer->corrupt()) writer = std::make_unique<RingWriter>(written);
         } catch (const Error&) {

@@ -11,7 +11,8 @@ namespace tandem::shm::test {
 
 constexpr int not_permitted = 77; ///< exit code of a child that may not do what it is for
 
-/// In a mount namespace of its own, with a /dev/shm of that many MiB; false where that is not allowed.
+/// Runs in a separate mount namespace with a /dev/shm of this number of MiB. Returns false if that is not
+/// permitted.
 inline bool enter_small_shm(int mib = 1) {
     const std::string options = "size=" + std::to_string(mib) + "m,mode=1777";
     if (!tandem::test::enter_own_namespaces(CLONE_NEWNS)) return false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// How often this program has allocated memory so far; always 0 under a sanitizer.
+/// Returns how often this program has allocated memory so far; always 0 under a sanitizer.
 long allocations();

@@ -32,7 +32,7 @@ bool begins_page(std::uintptr_t value) {
 
 using Map = void*(void*, std::size_t, int, int, int, off_t);
 
-/// Returns the first page in a new range of addresses that has room for `bytes` from there on.
+/// Returns the first page, in a new range of addresses, that is followed by room for `bytes`.
 void* reserve_pages(Map* map, std::size_t bytes) {
     void* const range =
         map(nullptr, bytes + page, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);

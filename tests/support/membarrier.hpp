@@ -7,7 +7,8 @@
 
 namespace tandem::test {
 
-/// Whether an rt::ShortMutex gets an owner here: not without membarrier(2), nor under the thread sanitizer.
+/// Returns whether an rt::ShortMutex gets an owner here: not without membarrier(2), nor under the thread
+/// sanitizer.
 inline bool mutexes_have_owners() {
 #ifdef __SANITIZE_THREAD__
     return false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The physical limit: what a reading of the clock costs, and how long one modified cache line takes from core
+// The physical limit: the cost of reading the clock, and the time that one modified cache line takes from core
 // to core. No transport between two cores is faster than the latter.
 #include "apps/bench/baseline/line_endpoint.hpp"
 #include "apps/bench/harness/cases.hpp"
@@ -10,7 +10,7 @@ namespace tandem::bench {
 
 namespace {
 
-/// Part of every latency in the report: one reading before and one after.
+/// Part of every latency in the report: the clock is read once before and once after.
 void read_clock(Session& session) {
     session.begin_measuring();
     while (session.needs_more()) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The least that anybody would write by hand for what tandem/opros and tandem/rtm measure inside one process: a
-// queue behind a mutex, a virtual call, a thread behind a condition variable, a loop on an absolute sleep.
+// The minimum that a programmer would write by hand for what tandem/opros and tandem/rtm measure within one
+// process: a queue behind a mutex, a virtual call, a thread behind a condition variable, a loop on an absolute
+// sleep.
 #include "apps/bench/harness/cases.hpp"
 #include "apps/bench/harness/in_process_cases.hpp"
 #include "apps/bench/harness/session.hpp"
@@ -34,34 +35,37 @@ class Queue {
     std::size_t next_ = 0;
 };
 
-/// What push() of an OPRoS port is compared with.
+/// The counterpart of push() of an OPRoS port.
 void push_double_by_hand(Session& session) {
     Queue<double> queue(0);
     time_each_call(session, [&](double value) { queue.push(value); });
 }
 
-/// The same with an array that is copied into a slot, whose memory is kept.
+/// Like the function above, with an array that is copied into a slot. The slot keeps its memory.
 void push_array(Session& session) {
     const std::vector<double> values(session.bytes() / sizeof(double), 1.5);
     Queue<std::vector<double>> queue(values);
     time_each_call(session, [&](double) { queue.push(values); });
 }
 
-/// The service of the call.
+/// The called service.
 class Doubler {
   public:
     virtual ~Doubler() = default;
     virtual double twice(double value) { return 2 * value; }
 };
 
-/// A virtual call is all that a service call inside one process needs.
+/// A virtual call is all that a service call within one process needs.
 void call_by_hand(Session& session) {
     Doubler doubler;
     Doubler* service = &doubler;
-    asm volatile("" : "+r"(service)); // or the compiler would know the class and call it directly
+    asm volatile("" : "+r"(service)); // otherwise the compiler would know the class and call it directly
     double sum = 0;
     time_each_call(session, [&](double value) { sum += service->twice(value); });
-    asm volatile("" : : "r"(&sum) : "memory"); // or the calls would be dropped with their unused results
+    asm volatile(""
+                 :
+                 : "r"(&sum)
+                 : "memory"); // otherwise the compiler would drop the calls, because their results are unused
 }
 
 /// A thread that sleeps until a value is sent, and publishes it.
@@ -98,10 +102,10 @@ class Listener {
     std::condition_variable wake_;
     double sent_ = 0; // guarded by mutex_
     std::atomic<double> received_{0};
-    std::thread thread_; // last: it uses the others
+    std::thread thread_; // last, because it uses the other members
 };
 
-/// From the notification to the woken thread's answer. The two threads need a core each.
+/// Measures from the notification to the answer of the woken thread. Each of the two threads needs a core.
 void event_by_hand(Session& session) {
     pin_to_all_cores();
     Listener listener;
@@ -120,7 +124,8 @@ std::int64_t monotonic_ns() {
     return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
 }
 
-/// The lateness of a loop on clock_nanosleep(). Missed periods are skipped, as a periodic executor skips them.
+/// Measures the lateness of a loop on clock_nanosleep(). Missed periods are skipped, as a periodic executor
+/// skips them.
 void measure_nanosleep_lateness(Session& session) {
     constexpr std::int64_t second_ns = 1'000'000'000;
     TickCounts counts;

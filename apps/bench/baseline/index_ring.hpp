@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The least that a ring can be: one writer, one reader, slots of one size, the index of each end on a
-// separate cache line, the peer's index cached. It has no policies, counters, checks or lengths: the difference to
-// Tandem's ring is what those cost.
+// A minimal ring: one writer, one reader, and slots of one size. The index of each end is on a separate cache
+// line, and each end caches the index of its peer. The ring has no policies, counters, checks or lengths;
+// Tandem's ring is slower by the cost of these.
 #pragma once
 #include "apps/bench/harness/case.hpp"
 #include "apps/bench/machine/clock.hpp"
@@ -14,7 +14,7 @@
 
 namespace tandem::bench {
 
-/// At the front of the ring's memory, which is zero at first. Each word has two cache lines, because the
+/// At the front of the ring's memory, which is zero at first. Each word gets two cache lines, because the
 /// prefetcher fetches lines in pairs.
 struct IndexRingHeader {
     alignas(128) std::atomic<std::uint32_t> head; // messages published; written by the writer
@@ -22,12 +22,13 @@ struct IndexRingHeader {
     alignas(128) std::atomic<std::uint32_t> reader_sleeps;
 };
 
-/// latency: each message arrives as early as possible. throughput: as many as possible, so that the reader
-/// stays off the head's line for a moment when the ring is empty, and gives slots back 64 at a time.
+/// latency: each message arrives as early as possible. throughput: as many messages as possible arrive, so the
+/// reader keeps off the head's line for a moment when the ring is empty, and returns slots 64 at a time.
 enum class RingTuning { latency, throughput };
 
-/// [one thread at each end] A template over all its options, so that none of them costs anything at run time.
-/// Both ends are made over the same memory; an object is used as the writer or as the reader, never as both.
+/// [one thread at each end] All options are template parameters, so that none of them costs anything at run
+/// time. Both ends are created over the same memory; an object is used as the writer or as the reader, never as
+/// both.
 template <std::size_t slot_bytes, std::uint32_t slots, Wake wake, RingTuning tuning = RingTuning::latency>
 class IndexRing {
   public:
@@ -36,7 +37,7 @@ class IndexRing {
     explicit IndexRing(std::byte* memory)
         : header_(*reinterpret_cast<IndexRingHeader*>(memory)), slots_(memory + sizeof(IndexRingHeader)) {}
 
-    /// [writer] The slot to be written next; polls while the ring is full.
+    /// [writer] Returns the slot to be written next; polls while the ring is full.
     std::byte* claim() {
         while (own_index_ - peer_index_ >= slots) peer_index_ = header_.tail.load(std::memory_order_acquire);
         return slot(own_index_);
@@ -46,31 +47,33 @@ class IndexRing {
         header_.head.store(++own_index_, std::memory_order_release);
         if constexpr (wake == Wake::spin) return;
         // Orders the store of head before the load of reader_sleeps; the reader does the opposite in sleep().
-        // Without both fences each could miss the other's store, and the reader would sleep on a message.
+        // Without both fences, each end could miss the store of the other, and the reader would sleep although
+        // a message is there.
         std::atomic_thread_fence(std::memory_order_seq_cst);
         if (header_.reader_sleeps.load(std::memory_order_relaxed) != 0) futex(FUTEX_WAKE, 1);
     }
 
-    /// [reader] Looks once.
+    /// [reader] Checks once.
     bool has_slot() { return peer_index_ != own_index_ || has_message(); }
-    /// [reader] The oldest slot; waits for it in the ring's wake mode.
+    /// [reader] Returns the oldest slot; waits for it in the ring's wake mode.
     const std::byte* wait_for_slot() {
         if (peer_index_ == own_index_) peer_index_ = header_.head.load(std::memory_order_acquire);
         if (peer_index_ == own_index_) wait();
         return slot(own_index_);
     }
-    /// [reader] Gives the oldest slot back to the writer.
+    /// [reader] Returns the oldest slot to the writer.
     void release() {
         if (++own_index_ % (tuning == RingTuning::throughput ? 64U : 1U) == 0)
             header_.tail.store(own_index_, std::memory_order_release);
     }
 
   private:
-    // Otherwise the last slots of a full ring would never be given back.
+    // Otherwise the last slots of a full ring would never be returned.
     static_assert(slots % 64 == 0 || tuning == RingTuning::latency);
 
     std::byte* slot(std::uint32_t index) const { return slots_ + (index % slots) * slot_bytes; }
-    /// Prefetching the slot's line along with the head's lets the two transfers overlap: 160 ns instead of 240.
+    /// Prefetches the slot's line together with the head's, so that the two transfers overlap: 160 ns instead
+    /// of 240.
     bool has_message() {
         peer_index_ = header_.head.load(std::memory_order_acquire);
         if (peer_index_ != own_index_) return true;
@@ -112,7 +115,7 @@ class IndexRing {
     IndexRingHeader& header_;
     std::byte* slots_;
     std::uint32_t own_index_ = 0;  // of the next slot of this end
-    std::uint32_t peer_index_ = 0; // the peer's index as last seen
+    std::uint32_t peer_index_ = 0; // the peer's index when it was last read
 };
 
 } // namespace tandem::bench

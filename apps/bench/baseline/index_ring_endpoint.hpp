@@ -12,7 +12,7 @@ void write_slot(Ring& ring, std::uint64_t sequence) {
     ring.publish();
 }
 
-/// The slot is given back after its words have been summed.
+/// Returns the slot after its words have been summed.
 template <std::size_t bytes, class Ring>
 std::uint64_t read_slot(Ring& ring) {
     const std::uint64_t sequence = checked_sequence(ring.wait_for_slot(), bytes);
@@ -37,7 +37,7 @@ class IndexRingEndpoint {
         std::byte* const begin =
             session.memory().data() + index * ((Ring::memory_bytes + page) / page * page);
         for (std::size_t offset = 0; offset < Ring::memory_bytes;
-             offset += page) // page faults now, not in the first lap
+             offset += page) // page faults happen now, not in the first lap
             static_cast<void>(*static_cast<volatile std::byte*>(begin + offset));
         return begin;
     }

@@ -4,18 +4,19 @@
 
 namespace tandem::bench {
 
-/// One word each way, without a ring. Each message uses the next of 64 lines: the way of a line to a core
-/// depends on its address (130 to 180 ns on one machine), and a single line would measure its luck.
+/// One word in each direction, without a ring. Each message uses the next of 64 lines: the time of a line to a
+/// core depends on its address (130 to 180 ns on one machine), so the result of a single line would depend on
+/// chance.
 class LineEndpoint {
   public:
-    /// A place is that of the lines of both directions in the session's memory.
+    /// `place`: the place of the lines of both directions in the session's memory.
     explicit LineEndpoint(Session& session, std::size_t place = 0)
         : out_(words(session, 2 * place + (session.is_side_a() ? 0 : 1))),
           in_(words(session, 2 * place + (session.is_side_a() ? 1 : 0))) {}
     void send(std::uint64_t sequence) { word(out_, sent_++).store(sequence, std::memory_order_release); }
     std::uint64_t receive() {
         auto& incoming = word(in_, received_);
-        // The line still holds the message of 64 messages ago: a new one has come when the word changes.
+        // The line still contains the message of 64 messages ago. A new one has arrived when the word changes.
         const std::uint64_t before = last_[received_ % lines];
         std::uint64_t now = before;
         while (now == before) now = incoming.load(std::memory_order_acquire);
@@ -24,7 +25,7 @@ class LineEndpoint {
 
   private:
     using Word = std::atomic<std::uint64_t>;
-    // 128 bytes: the prefetcher fetches lines in pairs, and neighbours would be moved along.
+    // 128 bytes, because the prefetcher fetches lines in pairs and would also move the neighbour.
     static constexpr std::size_t lines = 64, distance = 128;
     static std::byte* words(Session& session, std::size_t direction) {
         return session.memory().data() + direction * lines * distance;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one core does with large messages alone: copying, filling and summing memory. A stream between two cores
-// fills on one and sums on the other, and cannot be faster than the slower of the two.
+// The time that one core needs to copy, fill and sum memory. A stream between two cores fills on one and sums
+// on the other, and cannot be faster than the slower of the two.
 #include "apps/bench/harness/cases.hpp"
 #include "apps/bench/harness/registry.hpp"
 #include "apps/bench/measurements/measurements.hpp"
@@ -11,7 +11,7 @@ namespace tandem::bench {
 
 namespace {
 
-/// Windows of repeated work(1), work(2), ... on the case's bytes; results in GB/s.
+/// Measures windows of repeated work(1), work(2), ... on the case's bytes; results in GB/s.
 template <class Work>
 void repeat(Session& session, Work&& work) {
     const auto bytes = static_cast<double>(session.bytes());
@@ -24,29 +24,29 @@ void repeat(Session& session, Work&& work) {
     }
 }
 
-/// From one half of the session's memory to the other.
+/// Copies one half of the session's memory to the other.
 void copy(Session& session) {
     std::byte* from = session.memory().data();
     std::byte* to = from + session.memory().size() / 2;
     fill_message(from, session.bytes(), 1);
     repeat(session, [&](std::uint64_t) {
         std::memcpy(to, from, session.bytes());
-        asm volatile("" ::: "memory"); // or the compiler would drop all copies but the last
+        asm volatile("" ::: "memory"); // otherwise the compiler would drop all copies except the last
     });
     checked_sequence(to, session.bytes());
 }
 
-/// What the writer of a stream does without a reader.
+/// The work of a stream's writer, without a reader.
 void fill(Session& session) {
     repeat(session,
            [&](std::uint64_t round) { fill_message(session.memory().data(), session.bytes(), round); });
 }
 
-/// What the reader of a stream does without a writer.
+/// The work of a stream's reader, without a writer.
 void sum(Session& session) {
     fill_message(session.memory().data(), session.bytes(), 1);
     repeat(session, [&](std::uint64_t) {
-        asm volatile("" ::: "memory"); // or the compiler would sum once
+        asm volatile("" ::: "memory"); // otherwise the compiler would sum only once
         checked_sequence(session.memory().data(), session.bytes());
     });
 }

@@ -13,14 +13,14 @@ namespace tandem::bench {
 
 namespace {
 
-/// In 8 places of the memory, one after the other: see measure_round_trips_in_regions().
+/// Measures in 8 places of the memory, one after the other: see measure_round_trips_in_regions().
 template <Wake wake>
 void measure_in_8_regions(Session& session) {
     measure_round_trips_in_regions<IndexRingEndpoint<64, wake>>(session, 8);
 }
 
-/// A sleeps for the interval, stamps 48 bytes and writes them; B reads the clock when it has them. Both cores read the same
-/// clock, as in the cases of the bridge.
+/// A sleeps for the interval, writes the time into 48 bytes and sends them; B reads the clock when it has
+/// received them. Both cores read the same clock, as in the cases of the bridge.
 template <Wake wake>
 void measure_cold(Session& session) {
     using Ring = IndexRing<64, 1024, wake>;
@@ -48,8 +48,8 @@ void measure_cold(Session& session) {
     }
 }
 
-/// One way to a reader that has slept for 200 us, as event-driven components do whose sender is not always at it: a core that
-/// has just gone to sleep wakes faster. A is awake all the time.
+/// Measures one way to a reader that has slept for 200 us, as event-driven components with infrequent messages
+/// do: a core that has just gone to sleep wakes faster. A stays awake.
 void measure_after_rest(Session& session) {
     using Ring = IndexRing<64, 1024, Wake::blocking>;
     using Replies = IndexRing<64, 1024, Wake::spin>; // A polls: it sends when B has taken the last message
@@ -79,7 +79,7 @@ void measure_after_rest(Session& session) {
     }
 }
 
-/// What the machine adds: the same loop with an empty body, two readings of the clock after the sleep.
+/// The share of the machine: the same loop with an empty body, which reads the clock twice after the sleep.
 void measure_empty_loop(Session& session) {
     const int interval_ms = cold_interval_ms(session.bench_case());
     request_priority();
@@ -116,7 +116,7 @@ template <Wake wake>
 void add_wake_mode(Registry& registry) {
     RingCases<IndexRingEndpoint>(registry, Group::baseline, "index-ring")
         .add_wake_mode<wake>(measure_in_8_regions<wake>);
-    // A request and a reply, each in a ring: all that a call needs.
+    // A request and a reply, each in a ring: the minimum that a call needs.
     registry.add_with_conditions({.group = Group::baseline,
                                   .subject = "ring-pair",
                                   .operation = "call",
@@ -124,7 +124,7 @@ void add_wake_mode(Registry& registry) {
                                   .run = measure_in_8_regions<wake>});
 }
 
-/// "zero-copy": the slots themselves are filled and summed.
+/// "zero-copy": fills and sums the slots themselves.
 template <std::size_t bytes>
 void add_large_streams(RingCases<IndexRingEndpoint>& cases) {
     cases.add_large_stream<IndexRingEndpoint<bytes, Wake::spin>>(bytes, "zero-copy");

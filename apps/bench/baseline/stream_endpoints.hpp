@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The minimal ring as the floor of streams; where the slots themselves are filled and read, it is IndexRingEndpoint.
+// The minimal ring as the floor of streams. If the slots themselves are filled and read, the floor is
+// IndexRingEndpoint.
 #pragma once
 #include "apps/bench/baseline/index_ring_endpoint.hpp"
 
@@ -23,7 +24,7 @@ class SmallStreamEndpoint {
     Ring ring_;
 };
 
-/// One copy in and one copy out, as a transport needs it that does not lend its slots to the user.
+/// One copy in and one copy out, as in a transport that does not lend its slots to the user.
 template <std::size_t bytes>
 class CopyingEndpoint {
   public:

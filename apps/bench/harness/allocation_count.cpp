@@ -6,7 +6,7 @@
 #include <new>
 
 namespace {
-// A plain counter: allocations of several threads are all counted, their order does not matter.
+// A plain counter. Allocations of all threads are counted; their order does not matter.
 std::atomic<std::uint64_t> count{0};
 } // namespace
 

@@ -4,8 +4,8 @@
 
 namespace tandem::bench {
 
-/// [any-thread] How often operator new has been called in this process, by any library in it. The program's
-/// operator new is replaced by one that counts.
+/// [any-thread] Returns how often operator new has been called in this process, by any of its libraries. This
+/// file replaces the program's operator new by one that counts.
 std::uint64_t allocation_count();
 
 } // namespace tandem::bench

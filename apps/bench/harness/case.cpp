@@ -36,7 +36,7 @@ std::string Case::id() const {
     if (wake != Wake::none) id += std::string("/") + name_of(wake);
     if (!detail.empty()) id += "/" + detail;
     if (placement == Placement::threads) id += "/threads";
-    // A case under normal conditions has the short name, since it is the one that is asked for most.
+    // A case under normal conditions has the short name, because it is requested most often.
     if (conditions() != "normal") id += "/" + conditions();
     return id;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A case is one row of the report: which transport or program is measured, doing what, with how many bytes,
-// how its reader waits, and in which state the machine is.
+// A case is one row of the report: the measured transport or program, its operation, the number of bytes, the
+// way in which its reader waits, and the state of the machine.
 #pragma once
 #include <cstddef>
 #include <functional>
@@ -12,19 +12,19 @@ class Session;
 
 constexpr std::size_t mebibyte = std::size_t{1} << 20U;
 
-/// baseline: the least that the hardware or hand-written code needs. tandem: what users of this project run.
-/// peer: other middleware.
+/// baseline: the minimum that the hardware or hand-written code needs. tandem: what users of Tandem run. peer:
+/// other middleware.
 enum class Group { baseline, tandem, peer };
 
 /// How the waiting side waits: it polls; it polls for a while and then sleeps; it sleeps at once.
 enum class Wake { none, spin, spin_then_futex, blocking };
 
-/// What an idle core does. normal: it halts, and takes tens of microseconds to come back. low_latency_idle:
-/// /dev/cpu_dma_latency is held at 0, so that it stays in the shallowest idle state.
+/// The state of an idle core. normal: it halts, and needs tens of microseconds to wake up. low_latency_idle:
+/// /dev/cpu_dma_latency is held at 0, so the core stays in the shallowest idle state.
 enum class PowerProfile { normal, low_latency_idle };
 
-/// processes: A and B are processes on a core each. same_core: processes on one core. threads: threads of one
-/// process, on a core each. alone: there is only A.
+/// processes: A and B are processes, each on a separate core. same_core: processes on one core. threads:
+/// threads of one process, each on a separate core. alone: there is only A.
 enum class Placement { processes, same_core, threads, alone };
 
 enum class Unit { ns, gigabytes_per_second, million_messages_per_second, count, ratio };
@@ -37,19 +37,21 @@ struct Case {
     Wake wake = Wake::spin;
     PowerProfile power_profile = PowerProfile::normal;
     Placement placement = Placement::processes;
-    bool loaded = false; ///< a process that only computes runs on each core, too
+    bool loaded = false; ///< a process that only computes also runs on each core
     Unit unit = Unit::ns;
-    double divisor = 1;                     ///< samples are divided by it: 2 for one way by round trip
-    double extra_seconds = 0;               ///< added to the timeout of a case that is long by its nature
-    std::string detail = {};                ///< distinguishes it from similar cases: "loan", "256 ports"
-    std::string daemon = {};                ///< a program that must run during the case: "iox-roudi"
+    double divisor = 1;       ///< samples are divided by it: 2 for one way by round trip
+    double extra_seconds = 0; ///< added to the timeout, for a case that takes long by its nature
+    std::string detail = {};  ///< distinguishes the case from similar ones: "loan", "256 ports"
+    std::string daemon = {};  ///< a program that must run during the case: "iox-roudi"
     std::function<void(Session&)> run = {}; ///< [in each of the processes or threads]
 
     /// group/subject/operation/bytes[/wake][/detail][/threads][/conditions]; unique. --only matches it.
     std::string id() const;
-    /// The state of the machine: "normal", or what differs from it: "low-latency-idle", "same-core", "loaded".
+    /// Returns the state of the machine: "normal", or the differences: "low-latency-idle", "same-core",
+    /// "loaded".
     std::string conditions() const;
-    /// Cases with one key are measured one after the other, so that the two cases of a ratio are close in time.
+    /// Cases with the same key are measured one after the other, so that the two cases of a ratio are close in
+    /// time.
     std::string comparison_key() const;
     bool needs_two_cores() const {
         return placement == Placement::processes || placement == Placement::threads;

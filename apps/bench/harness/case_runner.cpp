@@ -22,15 +22,16 @@
 namespace tandem::bench {
 namespace {
 
-/// How much of the machine other processes have used since its construction: the busy time of all cores without
-/// that of this process and of its children that have ended. Its resolution is the kernel's tick, 10 ms.
+/// The share of the machine that other processes have used since construction: the busy time of all cores
+/// without that of this process and of its children that have ended. The resolution is the kernel's tick, 10
+/// ms.
 class MachineLoad {
   public:
     MachineLoad() : start_(read()) {}
-    /// 0 to 1 of the time of all cores.
+    /// Returns 0 to 1 of the time of all cores.
     double foreign_cpu_share() const {
         const Reading now = read();
-        // The sums are read one after the other: a small negative difference means none.
+        // The sums are read one after the other, so a small negative difference counts as 0.
         const double total = now.total - start_.total;
         if (total <= 0) return 0;
         return std::max(0.0, (now.busy - start_.busy - (now.own - start_.own)) / total);
@@ -42,9 +43,9 @@ class MachineLoad {
     };
     static Reading read() {
         Reading now{};
-        // The first line of /proc/stat is the sum over all cores (proc(5)): cpu user nice system idle iowait irq
-        // softirq steal, in ticks. Columns 3 and 4 are the idle time; steal counts as busy, since another guest
-        // of the hypervisor disturbs a measurement as another process does.
+        // The first line of /proc/stat is the sum over all cores (proc(5)): cpu user nice system idle iowait
+        // irq softirq steal, in ticks. Columns 3 and 4 are the idle time. Steal counts as busy, because another
+        // guest of the hypervisor disturbs a measurement as another process does.
         std::ifstream stat("/proc/stat");
         std::string label;
         stat >> label;
@@ -68,7 +69,7 @@ class MachineLoad {
 
 constexpr std::size_t memory_bytes = std::size_t{64} << 20U;
 
-/// Anonymous memory that forked children share with the driver; the kernel provides pages when they are touched.
+/// Anonymous memory that forked children share with the driver; the kernel provides each page at its first use.
 class SharedMemory {
   public:
     explicit SharedMemory(std::size_t bytes) : region_(boost::interprocess::anonymous_shared_memory(bytes)) {}
@@ -80,21 +81,22 @@ class SharedMemory {
     boost::interprocess::mapped_region region_;
 };
 
-/// One attempt at a case: what the driver and both sides share, and what each side does with it.
+/// One attempt to measure a case: the data that the driver and both sides share, and the work of each side.
 class CaseRun {
   public:
     CaseRun(const Case& bench_case, const Budget& budget, const Cores& cores)
         : case_(bench_case), budget_(budget), cores_(cores), name_(fresh_name()),
-          // 64 more than budgeted: results that are no samples of the loop (windows, counts) go there, too.
+          // 64 more than budgeted, for results that are not samples of the loop (windows, counts).
           control_memory_(sizeof(Control) + (budget.samples + 64) * sizeof(double)), memory_(memory_bytes) {}
 
     const std::string& name() const { return name_; }
     Control& control() const { return *reinterpret_cast<Control*>(control_memory_.bytes().data()); }
 
-    // [child] Not _exit(): some middlewares release their shared resources in destructors of static objects.
+    // [child] Not _exit(): some middleware releases its shared resources in destructors of static objects.
     [[noreturn]] void run_side_and_exit(Session::Role role) const { std::exit(run_side(role) ? 0 : 1); }
 
-    // [child] Both sides as threads. _exit(), since static destructors must not run while a thread still works.
+    // [child] Runs both sides as threads. _exit(), because static destructors must not run while a thread still
+    // works.
     [[noreturn]] void run_both_sides_and_exit() const {
         std::thread second([&] {
             if (!run_side(Session::Role::b)) _exit(1);
@@ -111,7 +113,7 @@ class CaseRun {
         return fmt::format("tandem-bench-{}-{}", getpid(), number++);
     }
 
-    /// True if it went well; otherwise the text of the exception is in the control block.
+    /// Returns true on success; otherwise the text of the exception is in the control block.
     bool run_side(Session::Role role) const {
         const bool b = role == Session::Role::b;
         try {
@@ -120,7 +122,7 @@ class CaseRun {
             case_.run(session);
             return true;
         } catch (const std::exception& failure) {
-            // The memory is zero at first: one byte less than there is room for ends in a zero.
+            // The memory is zero at first: one byte less than there is room for, so the text ends with a zero.
             std::strncpy(control().failure[b ? 1 : 0], failure.what(), Control::text_bytes - 1);
             return false;
         }
@@ -133,9 +135,9 @@ class CaseRun {
     SharedMemory control_memory_, memory_;
 };
 
-/// Removes what a killed side has left behind: files whose names contain the case's, and its message queues.
+/// Removes what a killed side has left: files whose names contain the case's name, and its message queues.
 void remove_leftovers(const std::string& name) {
-    std::error_code ignored; // a file of somebody else may vanish between listing and removing
+    std::error_code ignored; // another program's file may vanish between listing and removal
     for (const auto& folder : {std::filesystem::path("/dev/shm"), std::filesystem::temp_directory_path()})
         for (const auto& file : std::filesystem::directory_iterator(folder, ignored))
             if (file.path().filename().string().find(name) != std::string::npos)
@@ -154,18 +156,18 @@ void start_sides(ForkedChildren& children, const CaseRun& run, Placement placeme
 Outcome run_case(const Case& bench_case, const Budget& budget, const Cores& cores) {
     Outcome outcome;
     const CaseRun run(bench_case, budget, cores);
-    { // children and conditions end with this scope, before what they left is removed
+    { // children and conditions end with this scope, before their leftovers are removed
         const MachineConditions conditions(bench_case, cores);
         const MachineLoad load;
         ForkedChildren children;
         start_sides(children, run, bench_case.placement);
         outcome.failure = children.wait(budget.timeout_seconds + bench_case.extra_seconds);
-        // The load of a loaded case would count as that of others.
+        // Otherwise the load of a loaded case would count as load of other processes.
         if (!bench_case.loaded) outcome.foreign_cpu_share = load.foreign_cpu_share();
     }
     remove_leftovers(run.name());
     Control& control = run.control();
-    for (const char* text : control.failure) // says more than "side A failed"
+    for (const char* text : control.failure) // this text says more than "side A failed"
         if (*text != '\0') outcome.failure = text;
     if (control.has_tick_counts) outcome.tick_counts = control.tick_counts;
     if (control.has_window_counts) outcome.window_counts = control.window_counts;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the cases come from: each file of baseline/ and tandem/ defines one of these functions, which adds the
-// cases of that file; all_cases() calls them. The peers' functions are listed by CMake (peers/peers.cmake).
+// Each file of baseline/ and tandem/ defines one of these functions, which adds the cases of that file.
+// all_cases() calls them. CMake lists the functions of the peers (peers/peers.cmake).
 #pragma once
 
 namespace tandem::bench {
@@ -30,7 +30,7 @@ void add_wheelchair_cases(Registry& registry);
 // path/
 void add_path_cases(Registry& registry);
 
-/// peers/: the cases of the peers that this build has, and the names of the others with the reason.
+/// peers/: adds the cases of the peers that this build has, and the names of the other peers with the reason.
 void add_peer_cases(Registry& registry);
 
 } // namespace tandem::bench

@@ -22,7 +22,7 @@ volatile std::sig_atomic_t interrupt_seen = 0;
 
 pid_t fork_child() {
     const pid_t parent = getpid();
-    std::fflush(nullptr); // or the child would write what is buffered once more
+    std::fflush(nullptr); // otherwise the child would write the buffered text once more
     const pid_t child = fork();
     if (child < 0) throw std::system_error(errno, std::generic_category(), "cannot fork");
     if (child == 0) {

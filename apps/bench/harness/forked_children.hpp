@@ -9,11 +9,11 @@
 
 namespace tandem::bench {
 
-/// Forks: 0 in the child, its pid in the parent. The child has default actions for SIGINT and SIGTERM and is
-/// killed when its parent dies. Throws std::system_error.
+/// Forks. Returns 0 in the child, and the child's pid in the parent. The child has default actions for SIGINT
+/// and SIGTERM and is killed when its parent dies. Throws std::system_error.
 pid_t fork_child();
 
-/// [driver] The children of one case; those that still run are killed when it is destroyed.
+/// [driver] The children of one case. The destructor kills those that still run.
 class ForkedChildren {
   public:
     /// Runs work(), which must end the process, in a new child.
@@ -24,20 +24,20 @@ class ForkedChildren {
         children_.emplace_back(child);
     }
 
-    /// Of the child that was started last.
+    /// Returns the pid of the child that was started last.
     pid_t last_pid() const { return children_.back().pid(); }
 
-    /// Waits until all have ended, at most `seconds`. Returns the first failure (an exit code other than 0, a
-    /// signal, the timeout, an interrupt) in one line, or an empty string.
+    /// Waits until all children have ended, for at most `seconds`. Returns the first failure (an exit code
+    /// other than 0, a signal, the timeout, an interrupt) in one line, or an empty string.
     std::string wait(double seconds);
 
   private:
     std::vector<process::ChildProcess> children_; // A, then B
 };
 
-/// [driver] From here on SIGINT and SIGTERM end the case that runs instead of the program.
+/// [driver] From here on, SIGINT and SIGTERM end the running case instead of the program.
 void catch_interrupts();
-/// True once one of the two has come.
+/// Returns true once one of the two signals has arrived.
 bool interrupted();
 
 } // namespace tandem::bench

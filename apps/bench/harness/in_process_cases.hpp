@@ -6,7 +6,7 @@
 
 namespace tandem::bench {
 
-/// Adds cases that need one process only: components of one host, and hand-written code beside them.
+/// Adds cases that need only one process: components of one host, and hand-written code for comparison.
 class InProcessCases {
   public:
     InProcessCases(Registry& registry, Group group, std::string subject)
@@ -14,19 +14,19 @@ class InProcessCases {
                                           .subject = std::move(subject),
                                           .placement = Placement::alone} {}
 
-    /// Wake::none: nobody waits, since the caller's thread does all the work.
+    /// Wake::none: no thread waits, because the caller's thread does all the work.
     void add(const char* operation, std::size_t bytes, Wake wake, void (*run)(Session&),
              const char* detail = "", Unit unit = Unit::ns) {
         registry_.add(make(operation, bytes, wake, run, detail, unit));
     }
-    /// A thread sleeps until the event comes: with both power profiles.
+    /// Adds a case whose thread sleeps until the event arrives, with both power profiles.
     void add_event(void (*run)(Session&)) {
         Case event = make("event", sizeof(double), Wake::blocking, run);
         registry_.add(event);
         event.power_profile = PowerProfile::low_latency_idle;
         registry_.add(event);
     }
-    /// 100,000 ticks of 1 ms: longer than the timeout of other cases.
+    /// 100,000 ticks of 1 ms take longer than the timeout of other cases.
     void add_tick_drift(void (*run)(Session&)) {
         Case drift = make("tick-drift", sizeof(double), Wake::blocking, run);
         drift.extra_seconds = 110;

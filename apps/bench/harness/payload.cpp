@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-// Large messages are filled and summed with the widest vectors that the machine has (chosen when the program
-// starts), so that the memory is the limit and not this loop. The sanitizers do not support the dispatch.
+// Large messages are filled and summed with the widest vectors of the machine (chosen when the program starts),
+// so that the memory is the limit and not this loop. The sanitizers do not support the dispatch.
 #if defined(__x86_64__) && !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)
 #define TANDEM_BENCH_WIDE __attribute__((target_clones("avx512f", "avx2", "default")))
 #else

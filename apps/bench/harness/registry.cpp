@@ -43,7 +43,7 @@ Registry all_cases() {
     registry.skipped.push_back({"path", "instructions are counted on x86-64 only"});
 #endif
     add_peer_cases(registry);
-    // Comparison keys keep the order in which they first appear above, and so do the cases within a key.
+    // Comparison keys, and the cases of each key, keep the order in which they first appear above.
     std::map<std::string, std::size_t> order;
     for (const Case& entry : registry.cases) order.emplace(entry.comparison_key(), order.size());
     std::stable_sort(registry.cases.begin(), registry.cases.end(), [&](const Case& a, const Case& b) {

@@ -7,7 +7,7 @@
 
 namespace tandem::bench {
 
-/// A peer without cases in this build or on this machine.
+/// A peer that this build or this machine cannot measure.
 struct SkippedPeer {
     std::string subject, reason;
 };
@@ -17,8 +17,9 @@ struct Registry {
     std::vector<SkippedPeer> skipped;
 
     void add(const Case& entry) { cases.push_back(entry); }
-    /// Adds the case and, unless its reader polls, its variants with low-latency idle and on one core: a reader
-    /// that never sleeps does not feel the idle state, and on one core it would only wait for its time slice.
+    /// Adds the case and, unless its reader polls, its variants with low-latency idle and on one core. The idle
+    /// state does not affect a reader that never sleeps, and on one core such a reader would only wait for its
+    /// time slice.
     void add_with_conditions(const Case& entry);
 };
 

@@ -11,8 +11,8 @@ void Session::arrive_and_wait() {
     if (case_.placement == Placement::alone) return;
     const std::uint32_t all = 2 * ++barriers_;
     control_.arrivals.fetch_add(1, std::memory_order_acq_rel);
-    // No timeout here: the driver kills both sides if one of them does not come. Sleeps, since on one core a
-    // side that polls would hold the other up.
+    // No timeout here: the driver kills both sides if one of them does not arrive. Sleeps, because on one core
+    // a polling side would hold up the other.
     while (control_.arrivals.load(std::memory_order_acquire) < all)
         std::this_thread::sleep_for(std::chrono::microseconds(100));
 }
@@ -37,7 +37,7 @@ void Session::set_path(const PathCounts& counts, const std::vector<std::string>&
         if (listing.size() + function.size() + 2 > Control::listing_bytes) break;
         listing += function + "\n";
     }
-    std::copy(listing.begin(), listing.end(), control_.path_functions); // zero behind it
+    std::copy(listing.begin(), listing.end(), control_.path_functions); // zeros follow it
     control_.path_counts = counts;
     control_.has_path_counts = true;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one side of a case works with: which side it is, when both are ready, when it has measured enough, and
-// where its samples go.
+// The interface of one side of a case: which side it is, when both sides are ready, when it has measured
+// enough, and where its samples are stored.
 #pragma once
 #include "apps/bench/harness/case.hpp"
 #include "apps/bench/harness/path_counts.hpp"
@@ -16,24 +16,25 @@
 
 namespace tandem::bench {
 
-/// How long a case may take and how many samples it may bring.
+/// How long a case may take, and how many samples it may produce.
 struct Budget {
     std::size_t warm_up = 10'000, samples = 50'000;
-    double warm_up_seconds = 0.3, seconds = 1.5; ///< whichever of count and time is reached first
-    double window_seconds = 0.15;                ///< a stream's rate is measured over windows of this length
+    double warm_up_seconds = 0.3, seconds = 1.5; ///< the first limit that is reached ends the measurement
+    double window_seconds = 0.15; ///< the rate of a stream is measured over windows of this length
     int windows = 5;
-    double timeout_seconds = 20;       ///< then both sides are killed
-    std::size_t tail_messages = 5'000; ///< of a case of tails, and as many over the minimal ring
-    int attempts = 4;                  ///< a case is repeated if other processes disturbed it
+    double timeout_seconds = 20; ///< after this time both sides are killed
+    std::size_t tail_messages =
+        5'000; ///< number of messages of a case of tails; the same number goes through the minimal ring
+    int attempts = 4; ///< a case is repeated if other processes disturbed it
 };
 
-/// Memory that the driver and both sides share; zero at first. The samples follow it, as many as the budget says.
+/// Memory that the driver and both sides share; zero at first. Room for the samples of the budget follows it.
 struct Control {
     static constexpr std::size_t text_bytes = 400, listing_bytes = 32768;
     std::atomic<std::uint32_t> arrivals;       ///< calls of arrive_and_wait() of both sides
     std::atomic<std::uint32_t> stop_requested; ///< 0 or 1
     std::atomic<std::uint64_t> sample_count;
-    char failure[2][text_bytes]; ///< of A and of B; empty if it went well
+    char failure[2][text_bytes]; ///< of A and of B; empty on success
     bool has_tick_counts;
     TickCounts tick_counts;
     std::atomic<std::uint64_t> peer_switches; ///< see paired.hpp
@@ -45,7 +46,7 @@ struct Control {
     double* samples() { return reinterpret_cast<double*>(this + 1); }
 };
 
-/// [one thread] Made by the runner for each side.
+/// [one thread] The runner creates one for each side.
 class Session {
   public:
     enum class Role { a, b };
@@ -58,15 +59,18 @@ class Session {
     const Case& bench_case() const { return case_; }
     const Budget& budget() const { return budget_; }
     bool is_side_a() const { return role_ == Role::a; }
-    std::size_t bytes() const { return case_.bytes; }       ///< of a message
-    const std::string& name() const { return name_; }       ///< the same in both sides; no other case has it
-    std::span<std::byte> memory() const { return memory_; } ///< zero at first, 64 MiB, one for both sides
+    std::size_t bytes() const { return case_.bytes; } ///< of a message
+    const std::string& name() const {
+        return name_;
+    } ///< equal on both sides, and different from that of every other case
+    std::span<std::byte> memory() const { return memory_; } ///< shared by both sides: 64 MiB, zero at first
 
     /// Waits until both sides have called it the same number of times.
     void arrive_and_wait();
 
-    /// The warm-up loop and the measured loop: while (needs_more()) { ...; add_sample(duration, now); }
-    /// Of several such loops, `parts`, each gets its share of the budget; the samples add up.
+    /// The condition of the warm-up loop and of the measured loop: while (needs_more()) { ...;
+    /// add_sample(duration, now); }. If there are several such loops (`parts`), each gets its share of the
+    /// budget, and their samples add up.
     void begin_warm_up(std::size_t parts = 1) {
         begin(budget_.warm_up / parts, budget_.warm_up_seconds / static_cast<double>(parts), false);
     }
@@ -74,7 +78,7 @@ class Session {
         begin(budget_.samples / parts, budget_.seconds / static_cast<double>(parts), true);
     }
     bool needs_more() const { return taken_ < wanted_ && last_ < end_; }
-    /// Both in ticks. The end of a sample is the time that needs_more() looks at: no second reading of the clock.
+    /// Adds a sample; both in ticks. needs_more() checks `now`, so it does not read the clock again.
     void add_sample(std::uint64_t duration, std::uint64_t now) {
         if (keep_) control_.samples()[kept_++] = to_ns(duration) / case_.divisor;
         ++taken_;
@@ -83,27 +87,28 @@ class Session {
     /// Shows the samples to the driver.
     void end_measuring() { control_.sample_count.store(kept_, std::memory_order_release); }
 
-    /// Adds one figure in the case's unit: for cases that do not time a loop.
+    /// Adds one figure in the case's unit, for cases that do not time a loop.
     void add_result(double value);
 
-    /// How many of a case's ticks came a period late or more.
+    /// Sets how many of a case's ticks came a period late or more.
     void set_tick_counts(const TickCounts& counts) {
         control_.tick_counts = counts;
         control_.has_tick_counts = true;
     }
 
-    /// How often the side that does not measure has lost its core, as it last said.
+    /// Returns how often the side that does not measure has lost its core, as it last reported.
     std::atomic<std::uint64_t>& peer_switches() { return control_.peer_switches; }
-    /// How many windows of a paired case count.
+    /// Sets how many windows of a paired case count.
     void set_window_counts(const WindowCounts& counts) {
         control_.window_counts = counts;
         control_.has_window_counts = true;
     }
 
-    /// What a message takes, and its functions, one line each; the last ones are left out if there is no room.
+    /// Sets the cost of a message and its functions, one line each. The last functions are left out if there is
+    /// no room.
     void set_path(const PathCounts& counts, const std::vector<std::string>& functions);
 
-    /// The reader of a stream asks the writer to stop.
+    /// Called by the reader of a stream: asks the writer to stop.
     void request_stop() { control_.stop_requested.store(1, std::memory_order_release); }
     bool stop_requested() const { return control_.stop_requested.load(std::memory_order_relaxed) != 0; }
 

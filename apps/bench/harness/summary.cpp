@@ -10,9 +10,9 @@ namespace {
 
 constexpr int points_per_decade = 8;
 
-/// The smallest sample with at least `share` of all samples at or below it.
+/// Returns the smallest sample with at least `share` of all samples at or below it.
 double percentile(const std::vector<double>& sorted, double share) {
-    // Less 1e-9, or a product that rounding left just above a whole number would be the next rank.
+    // 1e-9 less, because a product that rounding left just above a whole number would give the next rank.
     const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(sorted.size()) - 1e-9));
     return sorted[std::clamp<std::size_t>(rank, 1, sorted.size()) - 1];
 }
@@ -54,7 +54,7 @@ Summary median_of(const std::vector<Summary>& runs) {
         return median(std::move(all));
     };
     Summary out;
-    // Runs with fewer samples have shorter curves; the common points are comparable.
+    // The curves of runs with fewer samples are shorter. Only the common points are compared.
     std::size_t points = runs.empty() ? 0 : runs.front().curve.size();
     for (const Summary& run : runs) {
         out.samples += run.samples;

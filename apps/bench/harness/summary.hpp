@@ -19,15 +19,15 @@ struct Summary {
     std::vector<CurvePoint> curve;
 };
 
-/// Percentiles by nearest rank, without interpolation: each is a sample that occurred. The curve has points at
-/// shares of 1 - 10^-x, 8 per decade, as far as there are samples for them.
+/// Computes percentiles by nearest rank, without interpolation: each is a sample that occurred. The curve has
+/// points at shares of 1 - 10^-x, 8 per decade, as far as there are samples for them.
 Summary summarize(std::vector<double> samples);
 
-/// Of an even number of values the mean of the middle two; 0 if there are none.
+/// Returns the mean of the middle two for an even number of values; 0 if there are none.
 double median(std::vector<double> values);
 
-/// The median over the runs of each percentile and of each point of the curve; sample counts add up, max is the
-/// largest of all runs.
+/// Returns the median over the runs for each percentile and for each point of the curve. Sample counts add up;
+/// max is the largest of all runs.
 Summary median_of(const std::vector<Summary>& runs);
 
 } // namespace tandem::bench

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The ticks of a periodic component as it sees them.
+// The ticks of a periodic component, recorded by the component.
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace tandem::bench {
 
-/// [tick-thread] How late ticks are, counted as cyclictest (rt-tests) counts its own: from the first period that began since the
-/// previous tick, so that a tick 3.2 periods late is one sample of 3.2 periods, not four samples.
+/// [tick-thread] The lateness of ticks, counted as cyclictest (rt-tests) does: from the first period that began
+/// since the previous tick. A tick that is 3.2 periods late is one sample of 3.2 periods, not four samples.
 class TickLateness {
   public:
     /// Periods begin at origin_ns plus multiples of period_ns, on CLOCK_MONOTONIC.
@@ -47,8 +47,8 @@ struct TickCounts {
 /// [tick-thread; read when it has stopped]
 class TickRecord {
   public:
-    /// [before the first tick] Room for the lateness of `samples` ticks; later ticks are only counted. Periods
-    /// begin at origin_ns plus multiples of period_ns, on CLOCK_MONOTONIC.
+    /// [before the first tick] Reserves room for the lateness of `samples` ticks; later ticks are only counted.
+    /// Periods begin at origin_ns plus multiples of period_ns, on CLOCK_MONOTONIC.
     void prepare(std::int64_t period_ns, std::size_t samples, std::int64_t origin_ns) {
         period_ns_ = period_ns;
         origin_ns_ = origin_ns;
@@ -56,7 +56,7 @@ class TickRecord {
         lateness_ns_.reserve(samples);
     }
 
-    /// [tick-thread] To be called at the beginning of a tick. No allocation.
+    /// [tick-thread] Call it at the beginning of a tick. Allocates nothing.
     void record_tick(std::int64_t now_ns) {
         if (ticks_++ == 0) first_ns_ = now_ns;
         last_ns_ = now_ns;
@@ -69,8 +69,8 @@ class TickRecord {
     std::uint64_t ticks() const { return ticks_; }
     const TickCounts& counts() const { return counts_; }
     const std::vector<std::int64_t>& lateness_ns() const { return lateness_ns_; }
-    /// By how much the mean period differs from the nominal one, in ns. The number of periods is counted on the
-    /// clock, not in ticks, so that skipped periods are no drift.
+    /// Returns the difference between the mean and the nominal period, in ns. The clock gives the number of
+    /// periods, so skipped periods do not count as drift.
     double mean_drift_ns() const {
         const std::int64_t periods =
             (last_ns_ - origin_ns_) / period_ns_ - (first_ns_ - origin_ns_) / period_ns_;

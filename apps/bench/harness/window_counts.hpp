@@ -4,10 +4,12 @@
 
 namespace tandem::bench {
 
-/// Of the short windows of a paired case: those that count, and those in which a side has lost its core to others.
+/// Counts of the short windows of a paired case: windows that count, and windows in which a side lost its core
+/// to other processes.
 struct WindowCounts {
     std::uint64_t kept = 0, dropped = 0;
-    /// A message over the floor, median of the windows that count; of several runs the mean. 0: not known.
+    /// Time of a message over the floor: the median of the windows that count; over several runs the mean. 0:
+    /// unknown.
     double floor_ns = 0;
 
     void add(const WindowCounts& other) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two RT-Components that measure a connection: Ping sends TimedOctetSeq of several sizes, one at a time, Pong's listener sends
-// each back. Half of the time from write() until Ping's listener has the decoded answer is one sample. With `read`, both read their
-// InPorts in their cycles, as often as they can, and have no listeners; or Ping's OutPort is connected to its own InPort: then write()
-// and read() together are one sample. The source uses OpenRTM-aist's public API alone, so that it compiles unchanged against
-// OpenRTM-aist 2.x.
+// Two RT-Components that measure a connection. Ping sends TimedOctetSeq of several sizes, one at a time, and
+// Pong's listener sends each back. Half of the time from write() until Ping's listener has the decoded answer
+// is one sample. With `read`, both components have no listeners and read their InPorts in their cycles, as
+// often as they can. If Ping's OutPort is connected to its own InPort, write() and read() together are one
+// sample. The source uses only OpenRTM-aist's public API, so it compiles unchanged against OpenRTM-aist 2.x.
 #include <rtm/idl/BasicDataTypeSkel.h>
 
 #include <rtm/DataFlowComponentBase.h>
@@ -30,7 +30,7 @@ using Message = RTC::TimedOctetSeq;
 
 const std::vector<std::uint32_t> sizes{8, 64, 1024, 16384, 262144, 1048576, 6291456};
 
-/// Calls back with each message that comes, in the thread that brings it.
+/// Calls back with each message, in the thread that delivers it.
 template <class Use>
 class Listener : public RTC::ConnectorDataListenerT<Message> {
   public:
@@ -49,7 +49,7 @@ void listen(RTC::InPort<Message>& port, Use use) {
     port.addConnectorDataListener(RTC::ConnectorDataListenerType::ON_RECEIVED, new Listener<Use>(use));
 }
 
-/// The number of a message is in its first bytes, and its last byte is that of the number, too.
+/// The first bytes of a message are its number; the last byte is the last byte of the number.
 void set_number(Message& message, std::uint32_t number) {
     unsigned char* bytes = message.data.get_buffer();
     std::memcpy(bytes, &number, sizeof number);
@@ -62,7 +62,7 @@ bool has_number(const Message& message, std::uint32_t length, std::uint32_t numb
            bytes[length - 1] == static_cast<unsigned char>(number);
 }
 
-/// What was measured for one size.
+/// The results for one size.
 struct Size {
     std::vector<double> microseconds; // one way
     std::uint32_t sent = 0, lost = 0;
@@ -86,7 +86,7 @@ class InterfaceTypesPing : public RTC::DataFlowComponentBase {
         if (!reads_) listen(in_, [this](const Message& message) { take(message); });
         return RTC::RTC_OK;
     }
-    /// A slice of the measurement, so that the context stays responsive.
+    /// Measures for a part of the time, so that the context stays responsive.
     RTC::ReturnCode_t onExecute(RTC::UniqueId) override {
         const auto end = Clock::now() + std::chrono::milliseconds(20);
         while (measured_.size() <= sizes.size() && Clock::now() < end) {
@@ -100,7 +100,7 @@ class InterfaceTypesPing : public RTC::DataFlowComponentBase {
 
   private:
     bool is_complete(const Size& size) const {
-        // The time limit holds only when there are enough samples for a median.
+        // The time limit applies only when there are enough samples for a median.
         return size.sent >= warm_up() + static_cast<std::uint32_t>(messages_) ||
                (size.sent >= warm_up() + 5 &&
                 Clock::now() - size.begun > std::chrono::duration<double>(seconds_));
@@ -141,7 +141,7 @@ class InterfaceTypesPing : public RTC::DataFlowComponentBase {
             size.microseconds.push_back(std::chrono::duration<double, std::micro>(arrival_ - sent).count() /
                                         (alone_ ? 1 : 2));
     }
-    /// [the thread that brings the message]
+    /// [the thread that delivers the message]
     void take(const Message& message) {
         const auto now = Clock::now();
         const std::lock_guard<std::mutex> lock(mutex_);
@@ -150,7 +150,7 @@ class InterfaceTypesPing : public RTC::DataFlowComponentBase {
         arrived_ = true;
         came_.notify_one();
     }
-    /// A line for each size: bytes, samples, lost, p50 and p99 in us. It appears as a whole.
+    /// Writes a line for each size: bytes, samples, lost, p50 and p99 in us. The file appears as a whole.
     void write_file() {
         {
             std::ofstream out(file_ + ".part");
@@ -179,7 +179,7 @@ class InterfaceTypesPing : public RTC::DataFlowComponentBase {
     RTC::InPort<Message> in_{"pong", answer_};
     std::vector<Size> measured_;
 
-    std::mutex mutex_; // of the rest
+    std::mutex mutex_; // guards the members below
     std::condition_variable came_;
     std::uint32_t number_ = 0, length_ = 0;
     bool arrived_ = false;
@@ -197,7 +197,7 @@ class InterfaceTypesPong : public RTC::DataFlowComponentBase {
         if (!reads_) listen(in_, [this](Message& message) { out_.write(message); });
         return RTC::RTC_OK;
     }
-    /// As Ping's.
+    /// The counterpart of Ping's.
     RTC::ReturnCode_t onExecute(RTC::UniqueId) override {
         const auto end = Clock::now() + std::chrono::milliseconds(20);
         while (reads_ && Clock::now() < end) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bridge's other end: an event-driven OPRoS component that sends each message back.
+// The other end of the bridge: an event-driven OPRoS component that sends each message back.
 #include <OPRoSInclude.h>
 
 #include <memory>

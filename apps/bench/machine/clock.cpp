@@ -11,7 +11,8 @@ namespace tandem::bench {
 
 namespace {
 
-/// constant_tsc: the rate does not follow the core's frequency. nonstop_tsc: it counts on in deep idle states.
+/// constant_tsc: the rate does not depend on the core's frequency. nonstop_tsc: the counter continues in deep
+/// idle states.
 bool invariant_tsc() {
 #ifdef __x86_64__
     std::ifstream info("/proc/cpuinfo");
@@ -23,13 +24,13 @@ bool invariant_tsc() {
     return false;
 }
 
-/// The same moment on both clocks.
+/// One moment on both clocks.
 struct ClockReadings {
     std::uint64_t ns, ticks;
 };
 
-/// CLOCK_MONOTONIC_RAW is read between two readings of the counter; of 50 such triples the tightest counts,
-/// since an interrupt within a triple would shift the moments against each other.
+/// Reads CLOCK_MONOTONIC_RAW between two readings of the counter. The shortest of 50 such triples counts,
+/// because an interrupt within a triple would shift the readings against each other.
 ClockReadings read_both_clocks() {
     ClockReadings best{};
     std::uint64_t tightest = ~std::uint64_t{0};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The clock of every measurement: the time-stamp counter (rdtsc) where it counts evenly, which the kernel calls
-// constant_tsc and nonstop_tsc; CLOCK_MONOTONIC_RAW elsewhere. Its unit is the tick.
+// The clock of every measurement: the time-stamp counter (rdtsc) if its rate is constant (the kernel calls this
+// constant_tsc and nonstop_tsc), otherwise CLOCK_MONOTONIC_RAW. Its unit is the tick.
 #pragma once
 #include <cstdint>
 #include <ctime>
@@ -31,8 +31,8 @@ inline std::uint64_t raw_ns() {
            static_cast<std::uint64_t>(now.tv_nsec);
 }
 
-/// Now, in ticks. Without the fences the processor would execute measured instructions before the first reading
-/// or after the second.
+/// Returns the time in ticks. Without the fences, the processor would execute measured instructions before the
+/// first reading or after the second.
 inline std::uint64_t ticks() {
 #ifdef __x86_64__
     if (Clock::tsc) {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// How often others have taken the core away from a thread: what tells a disturbed window of a paired case.
+// Counts how often other threads have taken the core away from a thread, which identifies the disturbed windows
+// of a paired case.
 #pragma once
 #include <cstdint>
 #include <sys/resource.h>
 
 namespace tandem::bench {
 
-/// This thread.
+/// Returns the count of the calling thread.
 inline std::uint64_t thread_switches() {
     rusage usage{};
     getrusage(RUSAGE_THREAD, &usage);

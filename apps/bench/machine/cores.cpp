@@ -24,7 +24,7 @@ void pin_to(int core) {
 
 void pin_to_all_cores() {
     cpu_set_t set;
-    std::memset(&set, 0xff, sizeof set); // the kernel reduces it to those that the process may use
+    std::memset(&set, 0xff, sizeof set); // the kernel reduces it to the cores that the process may use
     if (sched_setaffinity(0, sizeof set, &set) != 0)
         throw std::system_error(errno, std::generic_category(), "cannot allow all cores");
 }

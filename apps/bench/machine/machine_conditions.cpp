@@ -22,7 +22,7 @@ constexpr const char* latency_file = "/dev/cpu_dma_latency";
     for (volatile std::uint64_t work = 0;;) work = work + 1;
 }
 
-/// The kernel honours the number of microseconds written (PM QoS) for as long as the file stays open.
+/// The kernel honours the number of microseconds written (PM QoS) while the file is open.
 process::FileDescriptor hold_low_latency_idle() {
     process::FileDescriptor file(open(latency_file, O_WRONLY | O_CLOEXEC));
     const std::int32_t microseconds = 0;

@@ -9,18 +9,18 @@
 
 namespace tandem::bench {
 
-/// [driver] Brings the machine into the power profile and the load that a case asks for, and back when it is
-/// destroyed. The constructor throws std::system_error if the kernel refuses.
+/// [driver] Puts the machine into the power profile and the load that a case requires. The destructor undoes
+/// this. The constructor throws std::system_error if the kernel refuses.
 class MachineConditions {
   public:
     MachineConditions(const Case& bench_case, const Cores& cores);
 
   private:
-    process::FileDescriptor latency_file_;              // /dev/cpu_dma_latency, if it is held
+    process::FileDescriptor latency_file_;              // /dev/cpu_dma_latency, if held
     std::vector<process::ChildProcess> load_processes_; // killed with this object
 };
 
-/// Why this user cannot measure a case on this machine, with the remedy; empty if nothing is in the way.
+/// Returns why this user cannot measure a case on this machine, with the remedy; empty if it can be measured.
 std::string unmet_requirement(const Case& bench_case, const Cores& cores);
 
 } // namespace tandem::bench

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The measurements, each a template over an Endpoint: a class that each side makes from its Session, with
-//     void send(sequence)          sends a message of session.bytes(), the sequence number in all its words
-//     std::uint64_t receive()      waits for the next one in the case's wake mode; its sequence number, checked
-// and, for calls, over a Client with call(sequence) and a Server with serve(), which returns what it answered.
-// They are templates, because a virtual call would be part of each measured time. No wait here has a timeout:
-// the driver kills both sides when the case takes too long.
+// The measurements. Each is a template over an Endpoint, a class that each side creates from its Session, with
+//     void send(sequence)          sends a message of session.bytes(), with the sequence number in all words
+//     std::uint64_t receive()      waits for the next message in the case's wake mode; returns its checked number
+// Measurements of calls take a Client with call(sequence) and a Server with serve(), which returns the answered
+// number. They are templates, because a virtual call would be part of each measured time. No wait here has a
+// timeout: the driver kills both sides when the case takes too long.
 #pragma once
 #include "apps/bench/harness/payload.hpp"
 #include "apps/bench/harness/session.hpp"
@@ -26,7 +26,8 @@ void echo_until_stop(Endpoint& endpoint) {
     }
 }
 
-/// Side A of a round trip: times exchange(sequence), which sends a message and returns the answer's number.
+/// Side A of a round trip: times exchange(sequence), which sends a message and returns the number of the
+/// answer.
 template <class Exchange>
 void time_round_trips(Session& session, Exchange&& exchange, std::size_t parts = 1) {
     std::uint64_t sequence = 1;
@@ -47,8 +48,8 @@ void time_round_trips(Session& session, Exchange&& exchange, std::size_t parts =
     exchange(stop_sequence);
 }
 
-/// Round trips, one after the other. The case's divisor of 2 makes them one-way times: the clocks of two cores
-/// need not agree then.
+/// Measures round trips, one after the other. The case's divisor of 2 turns them into one-way times, for which
+/// the clocks of two cores need not agree.
 template <class Endpoint>
 void measure_round_trips(Session& session) {
     Endpoint endpoint(session);
@@ -60,8 +61,9 @@ void measure_round_trips(Session& session) {
     });
 }
 
-/// The same in several regions of the session's memory, one after the other, as Endpoint(session, region). How
-/// far a cache line is from a core depends on its address: a ring that never moves would measure its luck.
+/// Measures round trips in several regions of the session's memory, one after the other, as Endpoint(session,
+/// region). The distance of a cache line from a core depends on its address, so the result of a single place
+/// would depend on chance.
 template <class Endpoint>
 void measure_round_trips_in_regions(Session& session, std::size_t regions) {
     for (std::size_t region = 0; region < regions; ++region) {
@@ -78,7 +80,7 @@ void measure_round_trips_in_regions(Session& session, std::size_t regions) {
     }
 }
 
-/// Calls, one after the other: A is the client, B the server.
+/// Measures calls, one after the other: A is the client, B the server.
 template <class Client, class Server>
 void measure_calls(Session& session) {
     if (session.is_side_a()) {
@@ -91,12 +93,13 @@ void measure_calls(Session& session) {
         session.arrive_and_wait();
         while (server.serve() != stop_sequence) {
         }
-        session.arrive_and_wait(); // the client must have its last reply before the server's memory goes
+        session
+            .arrive_and_wait(); // the client must have its last reply before the server's memory is released
     }
 }
 
-/// Round trips that are due every millisecond. Each is measured from when it was due, not from when it was
-/// sent: a stall delays the following messages, too, and shows in each of them (no coordinated omission).
+/// Measures round trips that are due every millisecond. Each counts from when it was due, not from when it was
+/// sent: a stall also delays the following messages and shows in each of them (no coordinated omission).
 template <class Endpoint>
 void measure_paced(Session& session) {
     Endpoint endpoint(session);
@@ -118,8 +121,8 @@ void measure_paced(Session& session) {
     endpoint.receive();
 }
 
-/// What send() costs the writer: one message every 5 us while B receives, so that the ring is empty and B waits
-/// in its wake mode each time.
+/// Measures what send() costs the writer: one message every 5 us while B receives, so that the ring is empty
+/// and B waits in its wake mode each time.
 template <class Endpoint>
 void measure_publish(Session& session) {
     Endpoint endpoint(session);
@@ -149,13 +152,14 @@ void measure_publish(Session& session) {
     endpoint.send(stop_sequence);
 }
 
-/// The rate of messages sent without a pause: A fills and sends; B receives, sums, and counts over windows of
-/// time. Results: GB/s, or million messages per second, one for each window. No message may be lost.
+/// Measures the rate of messages sent without a pause: A fills and sends; B receives, sums, and counts over
+/// windows of time. Results: GB/s, or million messages per second, one for each window. No message may be lost.
 template <class Endpoint>
 void measure_stream(Session& session) {
     Endpoint endpoint(session);
     session.arrive_and_wait();
-    // Of short messages the clock and the stop flag are looked at once for 64: either costs as much as a message.
+    // For short messages, the clock and the stop flag are checked once per 64 messages: either check costs as
+    // much as a message.
     const std::uint64_t batch = session.bytes() <= 4096 ? 64 : 1;
     if (session.is_side_a()) {
         for (std::uint64_t sequence = 1; !session.stop_requested();)
@@ -165,7 +169,7 @@ void measure_stream(Session& session) {
         return;
     }
     const bool in_gigabytes = session.bench_case().unit == Unit::gigabytes_per_second;
-    // Of one message: bytes per ns are GB/s, 1000 messages per ns are millions per second.
+    // For one message: bytes per ns are GB/s, 1000 messages per ns are millions per second.
     const double unit = in_gigabytes ? static_cast<double>(session.bytes()) : 1e3;
     const std::uint64_t window = to_ticks(session.budget().window_seconds * 1e9);
     std::uint64_t expected = 1;
@@ -180,7 +184,7 @@ void measure_stream(Session& session) {
         if (i >= 0) session.add_result(static_cast<double>(expected - first) * unit / to_ns(now - begin));
     }
     session.request_stop();
-    for (std::uint64_t got = 0; got != stop_sequence;) { // what A had sent before it saw the request
+    for (std::uint64_t got = 0; got != stop_sequence;) { // messages that A had sent before it saw the request
         got = endpoint.receive();
         if (got != stop_sequence) require_sequence(got, expected++);
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two measurements in alternation, by the same two processes on the same two cores, in some hundred short windows. Each
-// window gives one ratio. On a guest whose cores wander between physical ones a cache line takes 80 ns in one second and 300
-// in the next: a floor that was measured a minute ago proves nothing.
+// Two measurements in alternation, by the same two processes on the same two cores, in some hundred short
+// windows. Each window gives one ratio. On a guest whose cores move between physical ones, a cache line takes
+// 80 ns in one second and 300 in the next, so a floor that was measured a minute ago proves nothing.
 #pragma once
 #include "apps/bench/harness/summary.hpp"
 #include "apps/bench/machine/core_switches.hpp"
@@ -15,7 +15,7 @@
 
 namespace tandem::bench {
 
-/// Says how many windows count. Throws std::runtime_error if too few are left for a median with quartiles.
+/// Reports how many windows count. Throws std::runtime_error if too few are left for a median with quartiles.
 inline void finish_windows(Session& session, const WindowCounts& counts) {
     session.set_window_counts(counts);
     if (counts.kept < 20)
@@ -31,7 +31,7 @@ class PairedWindows {
     static std::size_t windows(const Budget& budget) { return budget.seconds < 1 ? 60 : 300; }
 
     void begin() { switches_ = all_switches(); }
-    /// The times of both halves of the window, in ticks.
+    /// Adds the times of both halves of the window, in ticks.
     void end(std::uint64_t measured, std::uint64_t floor, std::size_t floor_messages) {
         const bool undisturbed = all_switches() == switches_;
         ++(undisturbed ? counts_.kept : counts_.dropped);
@@ -45,7 +45,8 @@ class PairedWindows {
     }
 
   private:
-    /// Of two sides on one core none is left out: whoever is woken there takes the core from who woke it.
+    /// No window is left out if both sides run on one core: there, each wake-up takes the core from the other
+    /// side.
     std::uint64_t all_switches() const {
         if (session_.bench_case().placement == Placement::same_core) return 0;
         return thread_switches() + session_.peer_switches().load(std::memory_order_acquire);
@@ -56,7 +57,8 @@ class PairedWindows {
     std::uint64_t switches_ = 0;
 };
 
-/// [one thread] Keeps memory: what the kernel has got back last, it would give to the next place again.
+/// [one thread] Holds memory: otherwise the kernel would give the pages that it got back last to the next
+/// place.
 class HeldMemory {
   public:
     HeldMemory() = default;
@@ -65,7 +67,7 @@ class HeldMemory {
     }
     HeldMemory(const HeldMemory&) = delete;
     HeldMemory& operator=(const HeldMemory&) = delete;
-    /// Without memory there is none to hold.
+    /// Does nothing without memory.
     void add() {
         void* const block = mmap(nullptr, block_bytes, PROT_READ | PROT_WRITE,
                                  MAP_PRIVATE | MAP_ANONYMOUS | MAP_POPULATE, -1, 0);
@@ -89,14 +91,14 @@ void echo_half_window(Session& session, Endpoint& endpoint) {
     }
 }
 
-/// Few where each wakes a thread.
+/// Few where each message wakes a thread.
 inline std::uint64_t round_trips_of_half(Wake wake) { return wake == Wake::blocking ? 60 : 200; }
 
-/// What stands for the round trips of half a window: the time of them all, or the median of one times their number. The latter leaves
-/// out what few of them meet, and reads the clock for each.
+/// How the round trips of half a window are summed up: by the time of them all, or by the median of one times
+/// their number. The median ignores what affects only a few of them, but needs a reading of the clock for each.
 enum class HalfTime { sum, median };
 
-/// [side A] Half a window of round trips; its time in ticks.
+/// [side A] Measures half a window of round trips; returns its time in ticks.
 template <HalfTime half_time, class Endpoint>
 std::uint64_t time_half_window(Endpoint& endpoint, std::uint64_t round_trips) {
     const auto exchange = [&](std::uint64_t sequence) {
@@ -122,25 +124,28 @@ std::uint64_t time_half_window(Endpoint& endpoint, std::uint64_t round_trips) {
     return static_cast<std::uint64_t>(median(std::move(times)) * static_cast<double>(round_trips));
 }
 
-/// [both sides] The windows of a case in several places of the memory, one after the other, each as window(floor, endpoint). In each
-/// place both are made anew, as Floor(session, place) and Endpoint(session).
+/// [both sides] Measures the windows of a case in several places of the memory, one after the other, each as
+/// window(floor, endpoint). In each place both are created anew, as Floor(session, place) and
+/// Endpoint(session).
 template <class Endpoint, class Floor, std::size_t places, class Window>
 void for_each_window(Session& session, Window&& window) {
     HeldMemory memory;
     for (std::size_t place = 0; place < places; ++place) {
         if (place != 0) memory.add();
-        session.arrive_and_wait(); // both have left the link that is made anew
+        session.arrive_and_wait(); // both sides have left the link that is created anew
         Floor floor(session, place);
         Endpoint endpoint(session);
         session.arrive_and_wait();
         for (std::size_t i = 0; i < PairedWindows::windows(session.budget()) / places; ++i)
             window(floor, endpoint);
-        session.arrive_and_wait(); // each side has the other's last message before that one's memory goes
+        session
+            .arrive_and_wait(); // each side has the last message of the other before that side's memory is released
     }
 }
 
-/// Round trips through Endpoint, in ratio to those through Floor(session, place). Both lie in 30 places of the memory: the ratio
-/// differs by a third between them, and one alone would measure its luck. Where each message wakes a thread, that does not matter.
+/// Measures the ratio of round trips through Endpoint to those through Floor(session, place), in 30 places of
+/// the memory: the ratio differs by a third between places, so the result of a single place would depend on
+/// chance. If each message wakes a thread, that does not matter.
 template <class Endpoint, class Floor, std::size_t places = 30, HalfTime half_time = HalfTime::sum>
 void measure_paired_round_trips(Session& session) {
     const std::uint64_t round_trips = round_trips_of_half(session.bench_case().wake);
@@ -158,8 +163,8 @@ void measure_paired_round_trips(Session& session) {
     if (session.is_side_a()) windows.finish();
 }
 
-/// [both sides] A stream of so many messages through Endpoint, the first tenth of which does not count; side B's time for the
-/// others, in ticks.
+/// [both sides] Sends `messages` messages through Endpoint without a pause; the first tenth does not count.
+/// Returns side B's time for the others, in ticks.
 template <class Endpoint>
 std::uint64_t time_half_stream(Session& session, Endpoint& endpoint, std::uint64_t messages) {
     std::uint64_t begin = 0;
@@ -172,12 +177,12 @@ std::uint64_t time_half_stream(Session& session, Endpoint& endpoint, std::uint64
     }
     const std::uint64_t time = ticks() - begin;
     if (session.is_side_a()) session.peer_switches().store(thread_switches(), std::memory_order_release);
-    session.arrive_and_wait(); // both roads are empty
+    session.arrive_and_wait(); // both paths are empty
     return time;
 }
 
-/// The time of a message in a stream through Endpoint, in ratio to that through Floor(session, place). The ratio of short messages
-/// differs by a third between places.
+/// Measures the ratio of the time of a message in a stream through Endpoint to that through Floor(session,
+/// place). For short messages the ratio differs by a third between places.
 template <class Endpoint, class Floor, std::size_t places>
 void measure_paired_streams(Session& session) {
     constexpr std::size_t bytes_of_half = 32 * mebibyte;

@@ -7,8 +7,8 @@
 
 namespace tandem::bench {
 
-/// Adds the cases that the minimal ring and Tandem's ring have in common, so that their ratios compare the same
-/// thing. Endpoint<bytes, wake> is the ring's (measurements.hpp).
+/// Adds the cases that the minimal ring and Tandem's ring have in common, so that their ratios compare equal
+/// work. Endpoint<bytes, wake> is the ring's (measurements.hpp).
 template <template <std::size_t, Wake> class Endpoint>
 class RingCases {
   public:
@@ -22,7 +22,7 @@ class RingCases {
         one_way.divisor = 2;
         one_way.run = round_trips;
         registry_.add_with_conditions(one_way);
-        if constexpr (wake != Wake::blocking) { // to wake a thread costs as much as to wake a process
+        if constexpr (wake != Wake::blocking) { // waking a thread costs as much as waking a process
             Case threads = one_way;
             threads.placement = Placement::threads;
             registry_.add(threads);

@@ -4,7 +4,7 @@
 
 namespace tandem::bench {
 
-/// Times work(1), work(2), ... one after the other: for cases that are alone in their process. between(value),
+/// Times work(1), work(2), ... one after the other, for cases that are alone in their process. between(value),
 /// which is not timed, runs before each.
 template <class Work, class Between>
 void time_each_call(Session& session, Work&& work, Between&& between) {
@@ -29,8 +29,8 @@ void time_each_call(Session& session, Work&& work) {
     time_each_call(session, work, [](double) {});
 }
 
-/// For events: polls the clock for so long, so that the thread that is to be woken sleeps again. The core of
-/// this thread stays awake, as that of a component that computes.
+/// For events: polls the clock for this time, so that the thread to be woken sleeps again. The core of this
+/// thread stays awake, like that of a component that computes.
 inline void busy_wait(double ns) {
     const std::uint64_t pause = to_ticks(ns);
     for (const std::uint64_t begin = ticks(); ticks() - begin < pause;) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The length of each road of a message or a call, in instructions, as a row for each side.
+// The length of each path of a message or a call, in instructions, with a row for each side.
 #include "apps/bench/baseline/index_ring.hpp"
 #include "apps/bench/harness/cases.hpp"
 #include "apps/bench/harness/forked_children.hpp"
@@ -18,15 +18,15 @@
 namespace tandem::bench {
 namespace {
 
-/// Where a message or a call goes.
+/// The path of a message or a call.
 enum class Road { opros_to_rtm, rtm_to_opros, inside_opros, inside_rtm };
 
 namespace fs = std::filesystem;
 
-/// A call whose caller or worker is stepped takes that much longer.
+/// A call takes longer if its caller or worker is stepped.
 constexpr const char* call_timeout_ms = "20000";
 
-/// The property `role` of the component that does the operation, and of the one that takes part.
+/// The property `role` of the component that performs the operation, and of the other component.
 struct Roles {
     std::string from, to;
 };
@@ -69,12 +69,12 @@ std::string local_rtc_conf(const Roles& roles) {
             "manager.components.preactivation: BenchPath0, BenchPath1\n");
 }
 
-/// The hosts of a road, each with a component BenchPath. `from` does the operation and `to` takes part; inside one host
-/// both are the same process.
+/// The hosts of a path, each with a component BenchPath. `from` performs the operation and `to` takes part;
+/// within one host, both are the same process.
 class PathHosts {
   public:
-    /// Writes the profiles into the folder and starts the hosts. `link`: the name of the link across. The operation is
-    /// a call, or a message of 6 doubles. Throws std::system_error.
+    /// Writes the profiles into the folder and starts the hosts. `link`: the name of the link between the
+    /// hosts. The operation is a call, or a message of 6 doubles. Throws std::system_error.
     PathHosts(Road road, bool is_call, const std::string& link, const fs::path& folder) : road_(road) {
         const Roles roles = is_call ? Roles{"call", "serve"} : Roles{"send", "receive"};
         const bool from_opros = road == Road::opros_to_rtm;
@@ -96,7 +96,7 @@ class PathHosts {
 
     pid_t from() const { return road_ == Road::rtm_to_opros || !opros_ ? rtm_->pid() : opros_->pid(); }
     pid_t to() const { return road_ == Road::rtm_to_opros || !rtm_ ? opros_->pid() : rtm_->pid(); }
-    /// Of each host, for the message of an error.
+    /// Returns the first log lines of each host, for an error message.
     std::string first_log_lines() const {
         std::string out;
         for (const auto* host : {&opros_, &rtm_})
@@ -112,7 +112,7 @@ class PathHosts {
 namespace fs = std::filesystem;
 using Values = std::array<double, 6>;
 
-/// Which side of a road is stepped.
+/// The stepped side of a path.
 enum class Side { sender, receiver, caller, worker };
 
 const char* name_of(Side side) {
@@ -141,7 +141,7 @@ PathTrace record(PathRecorder& recorder, const PathHosts& hosts, Side side) {
 }
 
 void measure_road(Session& session, Road road, Side side) {
-    pin_to_all_cores(); // the hosts inherit it, and run as a user runs them
+    pin_to_all_cores(); // the hosts inherit it, and run as a user would run them
     const bool is_call = side == Side::caller || side == Side::worker;
     const PathHosts hosts(road, is_call, session.name(), fs::temp_directory_path() / session.name());
     Tracer tracer;
@@ -155,8 +155,8 @@ void measure_road(Session& session, Road road, Side side) {
     }
 }
 
-/// [child] Both ends of the minimal ring in one thread, until this process is killed. `traced` becomes 1 when the tracer
-/// is there.
+/// [child] Runs both ends of the minimal ring in one thread until this process is killed. `traced` becomes 1
+/// when the tracer is attached.
 [[noreturn]] void run_minimal_ring(std::byte* memory, std::atomic<std::uint32_t>& traced) {
     using Ring = IndexRing<64, 1024, Wake::spin>;
     Ring writer(memory), reader(memory);

@@ -4,7 +4,8 @@
 
 namespace tandem::bench {
 
-/// Where a thread stands. `nothing`: the operation that had begun could not be done, since the link is not up yet.
+/// The position of a thread. `nothing`: the operation that had begun could not be performed, because the link
+/// is not up yet.
 enum class PathMark : int {
     none,
     send_begin,
@@ -17,10 +18,10 @@ enum class PathMark : int {
     nothing
 };
 
-/// Stops this thread until the tracer lets it go on. Without a tracer the process ends by SIGTRAP.
+/// Stops this thread until the tracer continues it. Without a tracer, the process ends by SIGTRAP.
 inline void mark(PathMark place) {
 #if defined(__x86_64__)
-    // The tracer reads the mark in rdi. It steps from the instruction behind int3 to the next int3.
+    // The tracer reads the mark in rdi. It steps from the instruction after int3 to the next int3.
     asm volatile("int3" : : "D"(static_cast<long>(place)) : "memory");
 #else
     static_cast<void>(place); // no tracer

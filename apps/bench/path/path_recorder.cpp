@@ -32,7 +32,7 @@ PathTrace PathRecorder::best_of(const std::function<PathTrace()>& attempt) const
     return best;
 }
 
-/// Lets a thread do its operation at full speed. True if it succeeded.
+/// Lets a thread perform its operation at full speed. Returns true if it succeeded.
 bool PathRecorder::pass(PathMark begin, PathMark end) {
     const pid_t thread = tracer_.wait_at(begin);
     tracer_.resume(thread);
@@ -48,7 +48,8 @@ void PathRecorder::warm_up_data() {
     }
 }
 
-/// The next instruction, or all of a function of the vdso: what does not count need not be stepped.
+/// Executes the next instruction, or a whole function of the vdso, because instructions that do not count
+/// need no stepping.
 void PathRecorder::begin_step(pid_t thread, const user_regs_struct& registers, const PathTrace& trace) {
     if (trace.is_of_kernel(registers.rip))
         tracer_.begin_return(thread);
@@ -56,7 +57,7 @@ void PathRecorder::begin_step(pid_t thread, const user_regs_struct& registers, c
         tracer_.begin_step(thread);
 }
 
-/// Steps the thread that stands at `begin` until its operation has ended, and lets it go on.
+/// Steps the thread that stands at `begin` until its operation has ended, and then continues it.
 PathTrace PathRecorder::step_to_end(PathMark begin, const std::function<void()>& after_each_step) {
     const pid_t thread = tracer_.wait_at(begin);
     PathTrace trace(thread);
@@ -94,7 +95,7 @@ PathTrace PathRecorder::record_receiver() {
     });
 }
 
-/// One call at full speed; remembers who has served it. True if it succeeded.
+/// Makes one call at full speed and remembers which thread served it. Returns true if it succeeded.
 bool PathRecorder::run_one_call() {
     const pid_t caller = tracer_.wait_at(PathMark::call_begin);
     tracer_.resume(caller);
@@ -122,15 +123,15 @@ PathTrace PathRecorder::record_caller() {
     tracer_.ignore(PathMark::served);
     return best_of([this] {
         tracer_.wait_at(PathMark::call_begin);
-        tracer_.wait_until_asleep(workers_); // the call has to wake one
+        tracer_.wait_until_asleep(workers_); // the call must wake one
         return step_to_end(PathMark::call_begin, [this] { tracer_.wait_until_asleep(workers_); });
     });
 }
 
 PathTrace PathRecorder::record_worker() {
     return best_of([this] {
-        // Each time: a worker that takes long, as one that is stepped, makes the link start another one, which takes
-        // its turn from then on.
+        // Each time, because a slow worker, like one that is stepped, makes the link start another one, which
+        // takes its turn from then on.
         warm_up_calls();
         return step_worker(tracer_.wait_at(PathMark::call_begin));
     });
@@ -138,11 +139,12 @@ PathTrace PathRecorder::record_worker() {
 
 PathTrace PathRecorder::step_worker(pid_t caller) {
     tracer_.wait_until_asleep(workers_);
-    // Whichever of them is woken: each sleeps in the system call that it steps.
+    // Any of them may be woken. Each sleeps in the system call that is stepped.
     std::map<pid_t, PathTrace> traces;
     for (const pid_t worker : workers_) {
         traces.try_emplace(worker, worker);
-        if (tracer_.is_stepped(worker)) continue; // of an earlier attempt, in which it was not woken
+        if (tracer_.is_stepped(worker))
+            continue; // it is stepped since an earlier attempt, in which it was not woken
         tracer_.interrupt(worker);
         tracer_.begin_step(worker);
     }
@@ -154,7 +156,7 @@ PathTrace PathRecorder::step_worker(pid_t caller) {
         if (thread == caller) break;
         const PathMark reached = tracer_.mark_of(thread);
         if (reached == PathMark::served) server_thread = thread;
-        // The caller may find its reply now; the worker's next instruction would be executed after the call.
+        // The caller may find its reply now; the worker would execute its next instruction after the call.
         tracer_.wait_until_asleep({caller});
         if (tracer_.stands_still(caller)) break;
         const user_regs_struct registers = tracer_.registers(thread);
@@ -165,7 +167,8 @@ PathTrace PathRecorder::step_worker(pid_t caller) {
     const PathMark reached = tracer_.mark_of(caller);
     tracer_.thaw();
     for (const pid_t worker : workers_) {
-        // One that has not been woken sleeps on, perhaps for ever: its step ends with the call that wakes it.
+        // A worker that has not been woken continues to sleep, perhaps for ever. Its step ends with the call
+        // that wakes it.
         if (tracer_.stands_still(worker)) tracer_.resume(worker);
     }
     tracer_.resume(caller);

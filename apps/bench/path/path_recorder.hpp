@@ -7,22 +7,23 @@
 
 namespace tandem::bench {
 
-/// Steps one side of a warm road and records its instructions. The best of several times counts: whatever disturbs a
-/// thread that is stepped only adds instructions, for instance a timer that has run out meanwhile. All functions throw
-/// std::runtime_error if the operation fails, and otherwise the trace.
+/// Steps one side of a warm path and records its instructions. The smallest of several results counts: a
+/// disturbance of the stepped thread, for instance by a timer that has expired, only adds instructions. All
+/// functions return the trace, or throw std::runtime_error if the operation fails.
 class PathRecorder {
   public:
     explicit PathRecorder(Tracer& tracer) : tracer_(tracer) {}
 
-    /// Data: one thread sends, the other one (or the same) receives. The message is there when the receiver looks.
+    /// Data: one thread sends, the other one (or the same) receives. The message has arrived before the
+    /// receiver checks for it.
     PathTrace record_sender();
     PathTrace record_receiver();
     /// A call that is served in the caller's own thread.
     PathTrace record_local_call();
-    /// A call across: between two steps of the caller the peer's worker gets all the time that it needs, so that the
-    /// caller finds its reply when it looks first.
+    /// A call to another process. Between two steps of the caller, the peer's worker gets all the time that
+    /// it needs, so the caller finds its reply at the first check.
     PathTrace record_caller();
-    /// The peer's worker, from its wake to where the caller has its reply.
+    /// The peer's worker, from its wake-up until the caller has its reply.
     PathTrace record_worker();
 
   private:

@@ -22,7 +22,7 @@ struct Function {
 };
 using Functions = std::map<std::uint64_t, Function>; // by address in the file
 
-/// Adds the functions of one of the file's symbol tables. A file that cannot be read has none.
+/// Adds the functions of one of the file's symbol tables; none for a file that cannot be read.
 void add_functions(const std::string& file, bool dynamic, Functions& functions) {
     constexpr std::uint64_t plt_stub_bytes = 16;
     std::vector<std::string> command{"nm", "--defined-only", "--demangle", "--no-sort", "--print-size"};
@@ -45,7 +45,7 @@ void add_functions(const std::string& file, bool dynamic, Functions& functions) 
     }
 }
 
-/// Read when first asked for.
+/// Reads the functions at the first request.
 const Functions& functions_of(const std::string& file) {
     static std::map<std::string, Functions> known;
     const auto [found, is_new] = known.try_emplace(file);

@@ -15,12 +15,12 @@ class CodeMap {
   public:
     explicit CodeMap(pid_t process);
 
-    /// "libc.so.6 malloc": the function at this address or, as stripped libraries have no symbols of functions that they
-    /// do not export, "local function behind X". Throws std::system_error if there is no nm.
+    /// Returns the function at this address, "libc.so.6 malloc", or "local function behind X" for functions
+    /// that a stripped library does not export. Throws std::system_error if nm is missing.
     std::string function_at(std::uint64_t address) const;
-    /// Whether an allocating function of the C library begins here.
+    /// Returns whether an allocating function of the C library begins here.
     bool is_allocation(std::uint64_t address) const;
-    /// Code that the kernel provides (vdso): its length depends on the clock.
+    /// Returns whether this is code that the kernel provides (vdso): its length depends on the clock.
     bool is_of_kernel(std::uint64_t address) const;
 
   private:
@@ -37,17 +37,17 @@ class CodeMap {
 /// The instructions that a thread has executed between two marks.
 class PathTrace {
   public:
-    /// Of a thread of this process, which has loaded all its libraries.
+    /// For a thread of this process, which has loaded all its libraries.
     explicit PathTrace(pid_t process) : process_(process), code_(process) {}
 
-    /// The instruction that the thread is about to execute.
+    /// Adds the instruction that the thread will execute next.
     void add(const user_regs_struct& registers);
 
-    /// Code that the kernel provides (vdso) lies there, which does not count.
+    /// Returns whether the address is in code that the kernel provides (vdso), which does not count.
     bool is_of_kernel(std::uint64_t address) const { return code_.is_of_kernel(address); }
 
     PathCounts counts() const;
-    /// "118 libc.so.6 malloc": instructions, library, function; the largest first.
+    /// Returns lines "118 libc.so.6 malloc": instructions, library, function; the largest first.
     std::vector<std::string> functions();
 
   private:

@@ -24,10 +24,10 @@ namespace {
 
 constexpr unsigned char int3 = 0xcc;
 
-/// Where nothing is mapped (vm.mmap_min_addr): a thread that returns there gets SIGSEGV.
+/// An address at which nothing is mapped (vm.mmap_min_addr): a thread that returns there gets SIGSEGV.
 constexpr std::uint64_t nowhere = 0x10;
 
-/// Throws std::runtime_error; ptrace() fails only where it is not permitted, or when the process has been killed.
+/// Throws std::runtime_error. ptrace() fails only if it is not permitted, or if the process has been killed.
 void trace(__ptrace_request request, pid_t thread, std::uintptr_t data) {
     auto* const pointer = reinterpret_cast<void*>(data); // NOLINT(performance-no-int-to-ptr)
     if (ptrace(request, thread, nullptr, pointer) != 0)
@@ -42,7 +42,8 @@ std::set<pid_t> threads_of(pid_t process) {
     return found;
 }
 
-/// Neither running nor about to run: proc(5), the third field of stat. A thread that has ended counts as asleep.
+/// Returns whether a thread neither runs nor is about to run: proc(5), the third field of stat. A thread that
+/// has ended counts as asleep.
 bool thread_is_asleep(pid_t thread) {
     std::ifstream file(fmt::format("/proc/{0}/task/{0}/stat", thread));
     std::string text;
@@ -64,7 +65,8 @@ std::size_t read_memory(pid_t process, std::uint64_t address, void* buffer, std:
 
 Tracer::Tracer() : core_(sched_getcpu()) { pin_to(core_); }
 
-// Each traced thread has to be reaped by its tracer: until then its process has not ended for anybody.
+// Each traced thread must be reaped by its tracer. Until then, its process has not ended for any other
+// process.
 Tracer::~Tracer() {
     for (const pid_t process : processes_) kill(process, SIGKILL);
     while (!threads_.empty()) {
@@ -78,14 +80,14 @@ Tracer::~Tracer() {
 void Tracer::attach_thread(pid_t thread) {
     if (threads_.contains(thread)) return;
     if (ptrace(PTRACE_SEIZE, thread, nullptr, PTRACE_O_TRACECLONE | PTRACE_O_EXITKILL) != 0) {
-        // A thread that was started since the first one was attached is traced already.
+        // A thread that was started after the first one was attached is already traced.
         if (!threads_.empty() && (errno == EPERM || errno == ESRCH)) return;
         throw std::runtime_error(fmt::format("ptrace is not permitted here ({}); see "
                                              "kernel.yama.ptrace_scope and the container's seccomp profile",
                                              std::strerror(errno)));
     }
     threads_[thread] = {};
-    pin_thread_to(thread, core_); // one that is not pinned is stepped all the same, only more slowly
+    pin_thread_to(thread, core_); // a thread that is not pinned is also stepped, only more slowly
 }
 
 void Tracer::attach(pid_t process) {
@@ -113,7 +115,8 @@ void Tracer::handle(pid_t thread, int status) {
                                 : fmt::format("a traced process exited with {}", WEXITSTATUS(status)));
 }
 
-/// ptrace(2): an event is in the third byte of the status; a stop without one is the arrival of a signal.
+/// ptrace(2): the third byte of the status contains an event. A stop without an event is the arrival of a
+/// signal.
 void Tracer::handle_stop(pid_t thread, int status) {
     Thread& state = threads_[thread]; // the first stop of a new thread may come before its creator's event
     const int event = status >> 16, signal = WSTOPSIG(status);
@@ -140,7 +143,7 @@ void Tracer::handle_trap(pid_t thread) {
     unsigned char before = 0;
     read_memory(thread, now.rip - 1, &before, 1);
     const auto place = static_cast<PathMark>(now.rdi);
-    if (before != int3) return continue_with(thread, SIGTRAP); // not a mark: the process's own
+    if (before != int3) return continue_with(thread, SIGTRAP); // not a mark, but the process's own trap
     if (ignored_.contains(place)) return continue_with(thread, 0);
     state.state = State::still;
     state.mark = place;
@@ -182,7 +185,7 @@ void Tracer::begin_step(pid_t thread) {
     user_regs_struct now = registers(thread);
     unsigned char next = 0;
     read_memory(thread, now.rip, &next, 1);
-    if (next == int3) { // passed here, so that a step never ends in the trap of a mark
+    if (next == int3) { // skipped here, so that a step never ends in the trap of a mark
         state.mark = static_cast<PathMark>(now.rdi);
         ++now.rip;
         trace(PTRACE_SETREGS, thread, reinterpret_cast<std::uintptr_t>(&now));
@@ -192,8 +195,8 @@ void Tracer::begin_step(pid_t thread) {
     continue_with(thread, 0);
 }
 
-/// The thread returns to where nothing is. A breakpoint in the code would stop the other threads as well, and one in a debug
-/// register does not work in some virtual machines.
+/// The thread returns to an unmapped address. A breakpoint in the code would also stop the other threads, and
+/// one in a debug register does not work in some virtual machines.
 void Tracer::begin_return(pid_t thread) {
     const std::uint64_t stack = registers(thread).rsp;
     Thread& state = threads_.at(thread);
@@ -208,7 +211,7 @@ void Tracer::begin_return(pid_t thread) {
 
 void Tracer::handle_return(pid_t thread) {
     user_regs_struct now = registers(thread);
-    if (now.rip != nowhere) return continue_with(thread, SIGSEGV); // the process's own
+    if (now.rip != nowhere) return continue_with(thread, SIGSEGV); // the process's own signal
     Thread& state = threads_.at(thread);
     now.rip = state.return_address;
     trace(PTRACE_SETREGS, thread, reinterpret_cast<std::uintptr_t>(&now));
@@ -235,7 +238,7 @@ void Tracer::freeze_others(pid_t thread, const std::set<pid_t>& exceptions) {
             continue;
         wait_until_asleep({other});
         interrupt(other);
-        // Not in a system call: it has just woken up, and goes on until it sleeps again.
+        // The thread is not in a system call: it has just woken up, and continues until it sleeps again.
         while (static_cast<std::int64_t>(registers(other).orig_rax) < 0) {
             resume(other);
             wait_until_asleep({other});
@@ -253,7 +256,7 @@ void Tracer::thaw() {
 void Tracer::wait_until_asleep(const std::set<pid_t>& threads) {
     for (;;) {
         const bool asleep = std::all_of(threads.begin(), threads.end(), thread_is_asleep);
-        // A thread that stands at a mark which is ignored has to be continued, and is not asleep then.
+        // A thread that stands at an ignored mark must be continued, and is not asleep then.
         int status = 0;
         const pid_t changed = waitpid(-1, &status, __WALL | WNOHANG);
         if (changed > 0)

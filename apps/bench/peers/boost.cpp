@@ -8,7 +8,7 @@ namespace tandem::bench {
 
 namespace {
 
-// A is the writer of queue 0, B of queue 1. Whoever comes first creates a queue; the runner removes both.
+// A writes queue 0, B writes queue 1. The first side to arrive creates a queue; the runner removes both.
 namespace bip = boost::interprocess;
 
 /// A queue in each direction.
@@ -37,7 +37,8 @@ class BoostEndpoint {
     }
 
   private:
-    // Messages that fit; of large ones few, or the queue would be larger than the machine's memory.
+    // The messages that fit. Of large messages only a few, because otherwise the queue would be larger than
+    // the memory.
     static constexpr std::size_t depth = bytes <= 4096 ? 1024 : 4;
     Message<bytes> message_;
     bip::message_queue out_, in_;

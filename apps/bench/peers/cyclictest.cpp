@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// cyclictest (Debian package rt-tests): the lateness of its thread at a period of 1 ms, from the histogram that
-// it prints, in whole microseconds. The kernel's developers measure wake-up latency with it; the ticks of both
-// hosts are compared with it.
+// cyclictest (Debian package rt-tests): the lateness of its thread at a period of 1 ms, in whole
+// microseconds, from the histogram that it prints. Kernel developers measure wake-up latency with it. The
+// ticks of both hosts are compared with it.
 #include "apps/bench/harness/in_process_cases.hpp"
 #include "apps/bench/harness/session.hpp"
 #include "apps/bench/harness/tick_budget.hpp"
@@ -22,13 +22,13 @@ namespace {
 constexpr const char* program = "/usr/bin/cyclictest";
 constexpr int histogram_us = 100'000; // wider latencies are only counted
 
-/// Runs it for as many ticks as the other tick cases take.
+/// Runs it for the same number of ticks as the other tick cases.
 void tick(Session& session) {
     const int count = lateness_ticks(session.budget());
     process::CommandOptions options;
     options.timeout = std::chrono::minutes(1) + std::chrono::milliseconds(count);
     options.merge_errors = true;
-    // It runs at normal priority (no --priority), as the components of the other tick cases do.
+    // It runs at normal priority (no --priority), like the components of the other tick cases.
     std::istringstream out(
         process::run_command({program, "--quiet", "--threads=1", "--interval=1000",
                               fmt::format("--loops={}", count), fmt::format("--histogram={}", histogram_us)},
@@ -50,7 +50,7 @@ void tick(Session& session) {
         std::sscanf(line, "# Histogram Overflows: %d", &overflows);
     }
     for (int i = 0; i < overflows && seen < count; ++i)
-        sample(max_us); // each as late as the latest: its own lateness is not printed
+        sample(max_us); // each counts as late as the latest: cyclictest does not print the lateness of each
     if (seen == 0) throw std::runtime_error("cyclictest printed no histogram");
     session.set_tick_counts(counts);
 }

@@ -17,8 +17,8 @@ namespace tandem::bench {
 
 namespace {
 
-// Loopback only and no multicast, so that nothing leaves the machine. Discovery by unicast to the same address.
-// The largest datagrams that UDP carries: 6 MiB are sent in fewer fragments.
+// Loopback only and no multicast, so that nothing leaves the machine. Discovery by unicast to the same
+// address. The largest datagrams that UDP carries, so that 6 MiB need fewer fragments.
 constexpr const char* configuration =
     "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name='lo'/></Interfaces>"
     "<AllowMulticast>false</AllowMulticast><MaxMessageSize>65500B</MaxMessageSize></General>"
@@ -42,7 +42,7 @@ const dds_topic_descriptor_t& descriptor<TandemBench_SixMebibytes>() {
     return TandemBench_SixMebibytes_desc;
 }
 
-/// The result; throws std::runtime_error if it is an error code.
+/// Returns the result. Throws std::runtime_error if it is an error code.
 dds_entity_t entity_or_throw(dds_return_t result, const char* operation) {
     if (result < 0)
         throw std::runtime_error(fmt::format("Cyclone DDS: {}: {}", operation, dds_strretcode(result)));
@@ -54,7 +54,7 @@ template <class T, Wake wake>
 class CycloneEndpoint {
   public:
     explicit CycloneEndpoint(Session& session) : message_(std::make_unique<T>()) {
-        // Read when the first participant is made.
+        // Read when the first participant is created.
         setenv("CYCLONEDDS_URI", configuration, 1);
         participant_ =
             entity_or_throw(dds_create_participant(DDS_DOMAIN_DEFAULT, nullptr, nullptr), "participant");
@@ -117,7 +117,8 @@ class CycloneEndpoint {
             if (c == '-') c = '_';
         return name;
     }
-    /// A message written before the peer is discovered would be kept for it and count as late.
+    /// Otherwise a message written before the peer is discovered would be kept for the peer and count as
+    /// late.
     void wait_for_match() const {
         dds_publication_matched_status_t readers{};
         dds_subscription_matched_status_t writers{};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // iceoryx (classic, Debian's version 2): zero-copy publish and subscribe by loan and take, by polling and by
-// WaitSet, and its client and server. Its daemon RouDi runs during each case. Publishers wait for a slow subscriber, so
-// that no message is lost.
+// WaitSet, and its client and server. Its daemon RouDi runs during each case. Publishers wait for a slow
+// subscriber, so that no message is lost.
 #include "apps/bench/peers/peer_cases.hpp"
 
 #include <chrono>
@@ -23,7 +23,7 @@ namespace {
 // A payload begins at the start of a cache line.
 constexpr std::uint32_t alignment = 64;
 
-/// To be called before any publisher or subscriber is made; registers this side with RouDi.
+/// Call it before any publisher or subscriber is created; registers this side with RouDi.
 void start_runtime(const Session& session) {
     iox::log::LogManager::GetLogManager().SetDefaultLogLevel(iox::log::LogLevel::kError,
                                                              iox::log::LogLevelOutput::kHideLogLevel);
@@ -31,7 +31,7 @@ void start_runtime(const Session& session) {
     iox::runtime::PoshRuntime::initRuntime({iox::cxx::TruncateToCapacity, name.c_str()});
 }
 
-/// Services have the case's name, so that two cases never see each other's.
+/// Services have the case's name, so that two cases do not see each other's services.
 iox::capro::ServiceDescription service(const Session& session, const char* event) {
     return {{iox::cxx::TruncateToCapacity, session.name().c_str()},
             "bench",
@@ -44,7 +44,7 @@ void wait_for(Ready&& ready) {
     while (!ready()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
-/// For errors that end the case: its row shows the text.
+/// Reports errors that end the case; its row shows the text.
 [[noreturn]] void fail(const char* operation) {
     throw std::runtime_error(std::string("iceoryx: ") + operation);
 }
@@ -95,7 +95,7 @@ class IceoryxEndpoint {
             });
         }
     }
-    // Both options are needed: the publisher must be willing to wait, and the subscriber must ask for it.
+    // Both options are necessary: the publisher must permit waiting, and the subscriber must request it.
     static iox::popo::PublisherOptions publisher_options() {
         iox::popo::PublisherOptions options;
         options.subscriberTooSlowPolicy = iox::popo::ConsumerTooSlowPolicy::WAIT_FOR_CONSUMER;
@@ -113,7 +113,7 @@ class IceoryxEndpoint {
     std::unique_ptr<iox::popo::WaitSet<>> wait_set_; // last: it detaches from the subscriber first
 };
 
-/// Requests are loaned and sent as messages are.
+/// Requests are loaned and sent like messages.
 template <Wake wake>
 class IceoryxClient {
   public:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// POSIX message queues (mq_overview(7)): a copy into the kernel and one out of it. The default limits of 10
-// messages of 8 KiB exclude large messages.
+// POSIX message queues (mq_overview(7)): a copy into the kernel and a copy out of it. The default limits of
+// 10 messages of 8 KiB exclude large messages.
 #include "apps/bench/peers/peer_cases.hpp"
 
 #include <cerrno>
@@ -43,7 +43,7 @@ class MqueueEndpoint {
     }
     static mqd_t open(Session& session, const char* end, int flags) {
         mq_attr sizes{};
-        sizes.mq_maxmsg = 10; // more needs a privilege
+        sizes.mq_maxmsg = 10; // a larger number needs a privilege
         sizes.mq_msgsize = bytes;
         const mqd_t queue = mq_open(("/" + session.name() + end).c_str(), flags | O_CREAT, 0600, &sizes);
         if (queue < 0) fail("mq_open");

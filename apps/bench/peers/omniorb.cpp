@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// omniORB, which OpenRTM-aist's ports between processes are made of: oneway and twoway operations over TCP on the
-// loopback and over unix sockets. A message arrives in a thread of the ORB, which sends the echo itself: a
-// hand-over to another thread would be no cost of omniORB's. Oneways of one connection keep their order only with
-// one server thread per connection.
+// omniORB, the base of OpenRTM-aist's ports between processes: oneway and twoway operations over TCP on the
+// loopback interface and over Unix sockets. A message arrives in a thread of the ORB, which sends the echo
+// itself, because a hand-over to another thread would not be a cost of omniORB. Oneways of one connection
+// keep their order only with one server thread per connection.
 #include "apps/bench/peers/peer_cases.hpp"
 
 #include "omniorb.hh"
@@ -19,8 +19,8 @@ namespace {
 
 enum class Transport { tcp, unix_socket };
 
-/// [any-thread] The sequence numbers of the messages that have arrived, in order. push() blocks while there are
-/// 1024, which holds the ORB's thread and so, by its socket, the sender back.
+/// [any-thread] The sequence numbers of the messages that have arrived, in order. push() blocks while there
+/// are 1024. This stops the ORB's thread and thereby, through the socket, the sender.
 class Inbox {
   public:
     void push(std::uint64_t sequence) {
@@ -51,7 +51,7 @@ class PeerServant : public POA_TandemBench::Peer {
     void put(const TandemBench::Bytes& message) override {
         const std::uint64_t sequence = checked_sequence(message.get_buffer(), message.length());
         if (echoes_) peer->put(message);
-        // The echoing side's main thread waits for the stop message only.
+        // The main thread of the echoing side only waits for the stop message.
         if (!echoes_ || sequence == stop_sequence) inbox_.push(sequence);
     }
     TandemBench::Bytes* call(const TandemBench::Bytes& message) override {
@@ -65,8 +65,8 @@ class PeerServant : public POA_TandemBench::Peer {
     bool echoes_;
 };
 
-/// An ORB with one activated object, and a reference to the peer's. The references are exchanged as text through
-/// the session's memory, which takes the place of a naming service.
+/// An ORB with one activated object, and a reference to the peer's object. The references are exchanged as
+/// text in the session's memory, which replaces a naming service.
 template <Transport transport>
 class OrbSide {
   public:
@@ -76,7 +76,7 @@ class OrbSide {
         const CORBA::Object_var root = orb_->resolve_initial_references("RootPOA");
         const PortableServer::POA_var poa = PortableServer::POA::_narrow(root);
         const PortableServer::ObjectId_var id = poa->activate_object(servant_.in());
-        // Requests are served from here on.
+        // From here on, requests are served.
         const PortableServer::POAManager_var manager = poa->the_POAManager();
         manager->activate();
         const CORBA::Object_var own = poa->id_to_reference(id);
@@ -99,13 +99,13 @@ class OrbSide {
     OrbSide& operator=(const OrbSide&) = delete;
 
   protected:
-    // Two object references, one behind the other, at the front of the session's memory.
+    // Two object references, one after the other, at the front of the session's memory.
     static constexpr std::size_t text_bytes = 4096;
-    /// Of calls and streams, nothing is.
+    /// Calls and streams are not echoed.
     static bool is_echoed(const Case& bench_case) {
         return bench_case.operation == "one-way" || bench_case.operation == "paired";
     }
-    /// Options: large messages are allowed, and the client uses the transport that is measured.
+    /// Returns the ORB's options: large messages are allowed, and the client uses the measured transport.
     static CORBA::ORB_ptr start_orb(const Session& session) {
         const std::string path = "giop:unix:/tmp/" + session.name() + (session.is_side_a() ? "-a" : "-b");
         const char* options[][2] = {
@@ -161,7 +161,7 @@ class TwowayServer : OrbSide<transport> {
   public:
     using OrbSide<transport>::OrbSide;
     TwowayServer(Session& session) : OrbSide<transport>(session) {}
-    /// The ORB's thread has answered already; this waits for the next sequence number.
+    /// The ORB's thread has already answered; this waits for the next sequence number.
     std::uint64_t serve() { return this->inbox_.pop(); }
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the peers' files have in common. A peer's endpoints are templates over message size and wake mode, and it
-// is measured in the modes and with the payloads that it has.
+// The common parts of the peers' files. A peer's endpoints are templates over message size and wake mode. The
+// peer is measured in the modes and with the payloads that it has.
 #pragma once
 #include "apps/bench/harness/cases.hpp"
 #include "apps/bench/harness/registry.hpp"
@@ -13,8 +13,8 @@
 
 namespace tandem::bench {
 
-/// Tandem's ring with a sleeping reader, beside which sleeping peers are measured. On one core its wait mode is the one for one core,
-/// which yields before it sleeps.
+/// Tandem's ring with a sleeping reader, for comparison with peers that sleep. On one core, its wait mode is
+/// same-core, which yields before it sleeps.
 class SleepingTandemRing : public RingEndpoint<64, Wake::blocking> {
   public:
     SleepingTandemRing(Session& session, std::size_t /*place*/) : RingEndpoint(session, how(session)) {}
@@ -34,7 +34,8 @@ class PeerCases {
     PeerCases(Registry& registry, std::string subject, std::string daemon = {})
         : registry_(registry), subject_(std::move(subject)), daemon_(std::move(daemon)) {}
 
-    /// One way, 64 B, as half a round trip. With a sleeping reader also in ratio to Tandem's ring, in alternation with it.
+    /// One way, 64 B, as half a round trip. If the reader sleeps, also the ratio to Tandem's ring, measured
+    /// in alternation with it.
     template <class Endpoint>
     void add_one_way(Wake wake) {
         Case one_way = make("one-way", 64, wake);
@@ -48,7 +49,7 @@ class PeerCases {
         paired.run = measure_paired_round_trips<Endpoint, SleepingTandemRing, 1>;
         registry_.add_with_conditions(paired);
     }
-    /// Request and reply, 64 B each. Detail "pair": the peer has no calls, two messages take their place.
+    /// Request and reply, 64 B each. Detail "pair": the peer has no calls, and two messages replace a call.
     template <class Client, class Server>
     void add_call(Wake wake, const std::string& detail = {}) {
         Case call = make("call", 64, wake, detail);
@@ -93,7 +94,7 @@ class PeerCases {
     std::string subject_, daemon_;
 };
 
-/// The sender's and the receiver's own copy of a message, for transports that copy.
+/// The separate copies of a message at the sender and the receiver, for transports that copy.
 template <std::size_t bytes>
 struct Message {
     Message() : words(bytes / sizeof(std::uint64_t)) {}
@@ -103,7 +104,7 @@ struct Message {
     std::vector<std::uint64_t> words;
 };
 
-/// Client and server of a transport that has no calls of its own: a message there and one back.
+/// Client and server of a transport without calls: a message there and one back.
 template <class Endpoint>
 struct PairClientOf : Endpoint {
     using Endpoint::Endpoint;

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # The peers: other middleware, measured by the same harness. A peer NAME is one file NAME.cpp, which defines
-# add_NAME_cases(), and one tandem_bench_peer() below. One that needs a package of peers.txt is optional: without it the
-# program names it as skipped.
+# add_NAME_cases(), and one tandem_bench_peer() below. A peer that needs a package of peers.txt is optional: without the
+# package, the program lists the peer as skipped.
 find_package(PkgConfig REQUIRED)
 find_package(Boost 1.74 REQUIRED CONFIG)
 

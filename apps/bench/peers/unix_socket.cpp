@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Unix sockets (unix(7)): SOCK_SEQPACKET for short messages, SOCK_STREAM for those that are longer than a packet
-// may be. A copy into the kernel and one out of it.
+// Unix sockets (unix(7)): SOCK_SEQPACKET for short messages, SOCK_STREAM for messages that are longer than a
+// packet may be. A copy into the kernel and a copy out of it.
 #include "apps/bench/peers/peer_cases.hpp"
 
 #include <cerrno>
@@ -16,19 +16,19 @@ namespace tandem::bench {
 
 namespace {
 
-/// With the text of errno.
+/// Throws an error with the text of errno.
 [[noreturn]] void fail(const char* operation) {
     throw std::system_error(errno, std::generic_category(), operation);
 }
 
-/// An abstract name (it begins with a zero byte): there is no file that could be left behind.
+/// An abstract name (it begins with a zero byte), so that no file can be left.
 socklen_t address_of(const std::string& name, sockaddr_un& address) {
     address.sun_family = AF_UNIX;
     std::memcpy(address.sun_path + 1, name.data(), name.size());
     return static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + name.size());
 }
 
-/// A connected socket: B listens and accepts, A connects. Throws std::system_error.
+/// Returns a connected socket: B listens and accepts, A connects. Throws std::system_error.
 int connect_sides(const Session& session, int type) {
     sockaddr_un address{};
     const socklen_t size = address_of(session.name(), address);
@@ -59,7 +59,8 @@ class SocketEndpoint {
     void send(std::uint64_t sequence) {
         message_.fill(sequence);
         const auto* data = static_cast<const std::byte*>(message_.data());
-        // A stream socket may take a part only; a packet goes whole. MSG_NOSIGNAL: an error instead of SIGPIPE.
+        // A stream socket may take only a part; a packet is sent as a whole. MSG_NOSIGNAL: an error instead
+        // of SIGPIPE.
         for (std::size_t done = 0; done < bytes;) {
             const ssize_t sent = ::send(fd_, data + done, bytes - done, MSG_NOSIGNAL);
             if (sent < 0) fail("send");

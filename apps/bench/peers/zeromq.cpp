@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ZeroMQ over ipc (a unix socket): PAIR sockets for messages, REQ and REP for calls. Its I/O thread runs on the
-// core that its process is pinned to, and each message passes through it.
+// ZeroMQ over ipc (a Unix socket): PAIR sockets for messages, REQ and REP for calls. Its I/O thread runs on
+// the core to which its process is pinned, and each message passes through it.
 #include "apps/bench/peers/peer_cases.hpp"
 
 #include <fmt/format.h>
@@ -12,7 +12,7 @@ namespace tandem::bench {
 
 namespace {
 
-/// ZeroMQ has error numbers of its own beside errno.
+/// ZeroMQ has separate error numbers in addition to errno.
 [[noreturn]] void fail(const char* operation) {
     throw std::runtime_error(fmt::format("{}: {}", operation, zmq_strerror(zmq_errno())));
 }
@@ -41,7 +41,8 @@ class Socket {
     void* socket_;
 };
 
-/// A message is allocated by ZeroMQ and filled in place. Large ones are passed to the I/O thread without a copy.
+/// ZeroMQ allocates a message, which is filled in place. Large messages are passed to the I/O thread without
+/// a copy.
 template <std::size_t bytes, Wake wake, int type_a = ZMQ_PAIR, int type_b = ZMQ_PAIR>
 class ZmqEndpoint {
   public:
@@ -52,7 +53,7 @@ class ZmqEndpoint {
         fill_message(zmq_msg_data(&message), bytes, sequence);
         if (zmq_msg_send(&message, socket_.get(), 0) < 0) fail("zmq_msg_send");
     }
-    // Polling asks for a message again and again; blocking sleeps until the I/O thread has one.
+    // Polling asks repeatedly for a message; blocking sleeps until the I/O thread has one.
     std::uint64_t receive() {
         zmq_msg_t message;
         zmq_msg_init(&message);

@@ -43,14 +43,14 @@ class Limits {
     std::vector<AcceptanceLimit> list_;
 };
 
-/// Tandem's ring with a sleeping reader, under the given conditions. On one core the wait mode is the one for
-/// one core, which yields before it sleeps.
+/// Tandem's ring with a sleeping reader, under the given conditions. On one core, the wait mode is
+/// `same-core`, which yields before it sleeps.
 std::string ring_asleep(const std::string& conditions, const std::string& operation = "one-way") {
     const bool same_core = conditions == "/same-core";
     return "tandem/ring/" + operation + "/64/" + (same_core ? "spin-then-futex" : "blocking") + conditions;
 }
 
-/// One 64-byte message. 48 bytes and their header fill one cache line: as little as a message can move.
+/// One 64-byte message. 48 bytes and their header fill one cache line, the least that a message can move.
 void add_one_way(Limits& limits) {
     limits.at_most("one-way 48 B, polling / cache line", 1.15, "tandem/ring/paired/48/spin");
     limits.at_most("one-way 64 B, polling / minimal ring", 1.2, "tandem/ring/paired/64/spin");
@@ -63,8 +63,9 @@ void add_one_way(Limits& limits) {
                        1.05, ring_asleep(conditions, "paired"));
 }
 
-/// Every peer that can sleep, except under normal conditions: there the wake-up of the halted core takes most of
-/// the time, and all transports look alike. 0.95: on some guests it does so under all conditions.
+/// Every peer that can sleep, except under normal conditions: there, the wake-up of the halted core takes
+/// most of the time, and all transports have similar times. 0.95, because on some guests the wake-up
+/// dominates under all conditions.
 void add_asleep_peers(Limits& limits, const std::vector<std::string>& ids) {
     for (const std::string conditions : {"low-latency-idle", "same-core"})
         for (const std::string& id : ids) {
@@ -83,9 +84,9 @@ void add_calls(Limits& limits) {
                     "tandem/call-queue/call/64/spin");
 }
 
-/// Short messages are limited by their cache lines, of which one of 64 B with its header takes two, and over the floor one; between two
-/// threads of one core by the instructions. Large ones are limited by the memory, for everybody: 3 % is "not slower" within the noise of
-/// a run.
+/// The cache lines limit short messages: a message of 64 B with its header takes two, and one over the floor
+/// takes one. Between two threads of one core, the instructions are the limit. The memory limits large
+/// messages of all transports: 3 % is the noise of a run.
 void add_streams(Limits& limits) {
     limits.stream_at_most("stream of 64 B / minimal ring", 2.2, "tandem/ring/paired-stream/64/spin");
     for (const std::string size : {"1M", "6M"}) {
@@ -97,8 +98,9 @@ void add_streams(Limits& limits) {
     limits.at_most("1MiB by copy / copying baseline", 1.05, "tandem/ring/paired-stream/1M/spin/copy");
 }
 
-/// Across the bridge, with both ports' own work. The picture beside the same copies by hand: into the memory that both
-/// processes share and out of it, since each component has a picture of its own. Event-driven, both components sleep.
+/// Across the bridge, including the work of both ports. The floor of the picture makes the same copies by
+/// hand, into the shared memory and out of it, because each component has a separate picture. In the
+/// event-driven cases, both components sleep.
 void add_messages_across(Limits& limits, const std::string& direction) {
     const std::string bridge = "tandem/bridge/";
     limits.at_most_by_floor("component to component, " + direction + " / minimal ring", 2, 1.5,
@@ -117,8 +119,8 @@ void add_messages_across(Limits& limits, const std::string& direction) {
                             1.5, bridge + "paired-64-links/64/spin/" + direction);
 }
 
-/// The ORB by itself is less than what two OpenRTM-aist processes do for a call. Where both sides sleep, waking takes nearly all of
-/// the time, in the ORB as here: such calls are compared with sleeping minimal rings.
+/// The ORB alone takes less than a call between two OpenRTM-aist processes. If both sides sleep, the wake-ups
+/// take nearly all of the time, also with the ORB, so such calls are compared with sleeping minimal rings.
 void add_calls_across(Limits& limits, const std::string& direction) {
     const std::string call = "tandem/bridge/call/16/", paired = "tandem/bridge/paired-call/16/";
     limits.at_most("call of 2 doubles, polling, " + direction + ", ns", 1500,
@@ -131,7 +133,7 @@ void add_calls_across(Limits& limits, const std::string& direction) {
                     "peer/omniorb-unix/call/64/blocking", call + "spin-then-futex/" + direction);
 }
 
-/// And links with many ports.
+/// Links with many ports.
 void add_components(Limits& limits) {
     for (const std::string direction : {"opros-to-rtm", "rtm-to-opros"}) {
         add_messages_across(limits, direction);
@@ -142,8 +144,9 @@ void add_components(Limits& limits) {
     limits.at_most("one-way round 256 ports / one port", 1.2, "tandem/ring/paired-ports/64/spin/256 ports");
 }
 
-/// Inside opros_host: mostly absolute, since what they replace (one mutex and a copy) takes as long on most machines. An event
-/// wakes its receiver, which takes 4 us on one machine and 70 on another.
+/// Inside opros_host. Most limits are absolute, because the hand-written counterparts (one mutex and a copy)
+/// take equally long on most machines. An event wakes its receiver, which takes 4 us on one machine and 70 on
+/// another.
 void add_opros(Limits& limits) {
     limits.at_most("OPRoS push of a double, ns", 300, "tandem/opros/push/8");
     limits.at_most("OPRoS push of vector<double>(1000), ns", 1000, "tandem/opros/push/8000");
@@ -178,7 +181,8 @@ void add_publish_counts(Limits& limits) {
     }
 }
 
-/// The reason in the row of the case, or in that of its peer: "peer/iceoryx" is the row of all its cases.
+/// Returns the reason in the row of the case, or in the row of its peer: "peer/iceoryx" is the row of all its
+/// cases.
 std::string skip_reason(const Report& report, const std::string& id) {
     for (const Row& row : report.rows)
         if (!row.skipped.empty() && (row.id == id || id.rfind(row.id + "/", 0) == 0))
@@ -187,8 +191,9 @@ std::string skip_reason(const Report& report, const std::string& id) {
     return "not measured: " + id;
 }
 
-/// The ratio, or the figure itself without a denominator, of each run; not finite where one of them failed. If only one of the two
-/// cases was measured again, because of another limit, those runs have no ratio and are left out.
+/// Returns the ratio of each run, or the figure itself without a denominator; not finite if one of the two
+/// failed. If only one of the two cases was measured again, because of another limit, the additional runs
+/// have no ratio and are left out.
 std::vector<double> values_of_runs(const Row& numerator, const Row* denominator) {
     std::vector<double> values = numerator.runs;
     if (denominator == nullptr) return values;
@@ -197,7 +202,7 @@ std::vector<double> values_of_runs(const Row& numerator, const Row* denominator)
     return values;
 }
 
-/// Skipped, with the reason, if one of the cases has no figures.
+/// Skips the limit, with the reason, if one of the cases has no figures.
 AcceptanceResult check_limit(const AcceptanceLimit& limit, const Report& report) {
     AcceptanceResult result{.limit = limit, .values = {}, .skipped = {}};
     const Row* numerator = report.find(limit.numerator);
@@ -226,7 +231,7 @@ AcceptanceResult check_limit(const AcceptanceLimit& limit, const Report& report)
     result.max = *std::max_element(values.begin(), values.end());
     if (numerator->window_counts) result.limit.limit = limit.limit_at(numerator->window_counts->floor_ns);
     if (numerator->is_paired() && denominator == nullptr) {
-        // Of the windows, which are many more than the runs.
+        // Over the windows, of which there are many more than runs.
         result.min = numerator->summary.p25;
         result.max = numerator->summary.p75;
     }

@@ -7,7 +7,7 @@ namespace tandem::bench {
 
 namespace {
 
-// Ordered: a reader of the file finds the name of the case first.
+// In this order, so that a reader of the file first finds the name of the case.
 using Json = nlohmann::ordered_json;
 // 2: group "baseline" and "tandem" instead of "floor" and "ours"; "subject", "operation" and "power_profile"
 // instead of "who", "what" and "regime"; "conditions" and "loaded" added; "foreign" is "foreign_cpu_share".
@@ -20,7 +20,7 @@ Json curve_json(const std::vector<CurvePoint>& curve) {
     return out;
 }
 
-/// The kernel is repeated in each row, so that a row says under which conditions it was measured on its own.
+/// Each row repeats the kernel, so that a row alone shows the conditions of its measurement.
 Json row_json(const Row& row, const Machine& machine) {
     Json out{{"case", row.id},
              {"group", row.group},
@@ -94,7 +94,7 @@ std::string to_json(const Report& report) {
                {"date", m.date}}},
              {"rows", Json::array()}};
     for (const Row& row : report.rows) out["rows"].push_back(row_json(row, m));
-    // One row a line: readable, and a difference between two files shows the row.
+    // One row per line: readable, and a difference between two files shows the row.
     std::string text = "{\"tandem_bench\":" + std::to_string(format_version) +
                        ",\n\"machine\":" + out["machine"].dump() + ",\n\"rows\":[";
     for (std::size_t i = 0; i < out["rows"].size(); ++i)

@@ -19,9 +19,9 @@ struct Row {
     std::string cores;      ///< "0,1": those of A and B
     std::size_t bytes = 0;
     bool loaded = false;
-    Summary summary;                           ///< median over the runs
-    std::vector<double> runs;                  ///< p50 of each run, in order; NaN where that run failed
-    std::size_t measured_again = 0;            ///< how many of them, the last ones, a missed limit caused
+    Summary summary;                ///< medians over the runs
+    std::vector<double> runs;       ///< p50 of each run, in order; NaN where that run failed
+    std::size_t measured_again = 0; ///< how many of them, the last ones, were added because of a missed limit
     std::optional<TickCounts> tick_counts;     ///< of cases that tick, over all runs
     std::optional<WindowCounts> window_counts; ///< of paired cases, over all runs
     std::optional<PathCounts> path_counts;     ///< of the last run of a case that counts instructions
@@ -31,16 +31,18 @@ struct Row {
     std::string skipped;          ///< why there are no figures; empty if there are
 
     bool higher_is_better() const { return unit != "ns" && unit != "count" && unit != "ratio"; }
-    /// A paced message counts from when it was due, so that a stall is not hidden.
+    /// Returns where a sample begins. A paced message counts from when it was due, so that a stall is not
+    /// hidden.
     const char* timed_from() const { return operation == "paced" ? "intended start" : "start"; }
     bool is_disturbed() const { return foreign_cpu_share > max_foreign_cpu_share; }
-    /// Its samples are ratios to a floor, measured in alternation with it.
+    /// Returns whether the samples are ratios to a floor, measured in alternation with it.
     bool is_paired() const { return unit == "ratio"; }
     bool is_latency() const { return unit == "ns"; }
-    /// A and B are processes of their own, on one core or on two.
+    /// Returns whether A and B are separate processes, on one core or on two.
     bool has_two_processes() const { return placement == "processes" || placement == "same-core"; }
 
-    /// Of the machine. A case is repeated, and its row marked as disturbed, when others used more.
+    /// Share of the machine. If other processes used more, the case is repeated, and its row is marked as
+    /// disturbed.
     static constexpr double max_foreign_cpu_share = 0.02;
 };
 

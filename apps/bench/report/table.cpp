@@ -10,7 +10,7 @@ namespace tandem::bench {
 
 std::string figure_text(double value) {
     if (value == 0) return "0";
-    // Four significant digits: of 123.4 one after the point, of 0.01234 five, cut to three.
+    // Four significant digits: 123.4 has one after the point, 0.01234 has five, cut to three.
     const int digits = std::max(0, 3 - static_cast<int>(std::floor(std::log10(std::abs(value)))));
     return fmt::format("{:.{}f}", value, std::min(digits, 3));
 }
@@ -23,7 +23,7 @@ std::string measurements_text(const std::vector<double>& values) {
 
 namespace {
 
-/// One line. The upper percentiles of a rate are those of its best windows, which nobody asks for.
+/// One line. The upper percentiles of a rate are left out, because they are those of its best windows.
 std::string line_of(const Row& row, std::size_t width) {
     const Summary& s = row.summary;
     const auto tail = [&](double value) { return row.is_latency() ? figure_text(value) : std::string("-"); };
@@ -47,7 +47,7 @@ std::string line_of(const Row& row, std::size_t width) {
 
 } // namespace
 
-/// The first column is as wide as the longest name, so that the others stand below each other.
+/// The first column is as wide as the longest name, so that the other columns are aligned.
 std::string table_text(const Report& report) {
     const Machine& m = report.machine;
     std::size_t width = 4;
@@ -59,7 +59,7 @@ std::string table_text(const Report& report) {
                        "cores", "samples", "p50", "p90", "p99", "p99.9", "max", "conditions");
     for (const Row& row : report.rows)
         if (row.skipped.empty()) out += line_of(row, width);
-    // Once more in one line: a single row's mark is easily overlooked.
+    // Repeated in one line, because the mark of a single row is easily overlooked.
     const auto disturbed = std::count_if(report.rows.begin(), report.rows.end(),
                                          [](const Row& row) { return row.is_disturbed(); });
     if (disturbed > 0)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The shared memory of a link as the cases use it: sides A and B join one segment, each adds its objects and
-// finds the peer's.
+// The shared memory of a link for the cases: sides A and B join one segment, each adds its objects and finds
+// the peer's.
 #pragma once
 #include "apps/bench/measurements/measurements.hpp"
 #include "shm/segment.hpp"
@@ -12,7 +12,8 @@
 
 namespace tandem::bench {
 
-/// The link option `wait` for a case's wake mode. Two sides on one core must yield instead of spin.
+/// Returns the link option `wait` for a case's wake mode. Two sides on one core must yield instead of
+/// spinning.
 inline shm::WaitOptions wait_options(const Case& bench_case,
                                      std::chrono::nanoseconds spin = shm::WaitOptions{}.spin) {
     shm::WaitOptions options;
@@ -34,7 +35,8 @@ class BenchLink {
     static constexpr std::size_t default_capacity = std::size_t{64} * 1024;
     static constexpr std::uint32_t chunks = 4; ///< the reader holds one, the writer fills one, two wait
 
-    /// Joins the case's segment; A is the first side. A second link of one case has another name. Throws shm::Error.
+    /// Joins the case's segment; A is the first side. A second link of a case needs another name. Throws
+    /// shm::Error.
     BenchLink(Session& session, std::size_t arena_bytes, const std::string& suffix = "")
         : side_(session.is_side_a() ? shm::Side::first : shm::Side::second) {
         shm::JoinOptions options;
@@ -45,7 +47,7 @@ class BenchLink {
     shm::Segment& segment() { return *segment_; }
     shm::Side side() const { return side_; }
 
-    /// A ring that this side writes, for messages of `bytes`; long messages get chunks of their own.
+    /// Returns a ring that this side writes, for messages of `bytes`; long messages get separate chunks.
     shm::RingHandle add_ring(const std::string& name, std::size_t bytes,
                              std::size_t capacity = default_capacity) {
         shm::RingOptions options;
@@ -60,17 +62,18 @@ class BenchLink {
         }
         return segment_->add_ring(name, options);
     }
-    /// An upper bound of the arena bytes that such a ring needs, with its share of the directory.
+    /// Returns an upper bound of the arena bytes that such a ring needs, with its share of the directory.
     static std::size_t ring_bytes(std::size_t bytes, std::size_t capacity = default_capacity) {
         return std::size_t{256} * 1024 + 2 * capacity + (bytes > max_bytes_in_ring ? chunks + 1 : 4) * bytes;
     }
 
-    /// To be called when all objects of this side are added: publishes them, and waits for the peer's.
+    /// Call it when all objects of this side are added: publishes them, and waits for the peer's.
     void publish_and_wait() {
         segment_->publish();
         while (!segment_->peer_published()) std::this_thread::sleep_for(std::chrono::microseconds(200));
     }
-    /// [after publish_and_wait()] Throws std::runtime_error if the peer has no such ring.
+    /// [after publish_and_wait()] Returns the peer's ring. Throws std::runtime_error if the peer has no such
+    /// ring.
     shm::RingHandle peer_ring(const std::string& name) {
         const auto found = segment_->find_ring(shm::other(side_), name);
         if (!found) throw std::runtime_error("the other side has no ring " + name);
@@ -84,8 +87,9 @@ class BenchLink {
     std::unique_ptr<shm::Segment> segment_;
 };
 
-/// Writes one message of `bytes`, in the way in which the proxy writes a port's value: encoded into the memory that the ring has for
-/// short messages, or into a chunk of the ring. Throws std::runtime_error if the ring refuses it, which a sound ring never does.
+/// Writes one message of `bytes` as the proxy writes a port's value: encodes it into the ring's memory for
+/// short messages, or into a chunk of the ring. Throws std::runtime_error if the ring refuses it, which an
+/// intact ring never does.
 inline void write_message(shm::RingWriter& ring, std::size_t bytes, std::uint64_t sequence) {
     bool written = false;
     if (bytes <= ring.max_record()) {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Component to component across the bridge: A runs opros_host with BenchPing and AdaptorComp, B runs rtm_host
-// with BenchPong and InterceptorComp, as a user runs them. Eight doubles each way, by themselves, in a structure behind a string
-// (note), or at the front of a picture of 1 MiB that is filled, sent, read: all within the measured time. Both components poll.
-// Blocking, both are event-driven: an aperiodic OPRoS component and a listener of an RTC, each asleep when its message comes.
-// Cold, the sender of the measured direction is periodic and sends once in each tick. The case paired-64-links has 63 links more in
-// the same hosts, of 16 ports each through which nothing goes.
+// with BenchPong and InterceptorComp, as a user runs them. Eight doubles go each way: alone, in a structure
+// after a string (note), or at the beginning of a picture of 1 MiB, whose filling, sending and reading are
+// part of the measured time. Both components poll. In `blocking` cases both are event-driven: an aperiodic
+// OPRoS component and a listener of an RTC, each asleep when its message arrives. In cold cases, the sender
+// of the measured direction is periodic and sends once in each tick. The case paired-64-links has 63 more
+// links in the same hosts, each with 16 unused ports.
 #include "apps/bench/harness/cases.hpp"
 #include "apps/bench/harness/registry.hpp"
 #include "apps/bench/harness/session.hpp"
@@ -28,7 +29,7 @@ constexpr std::size_t note_bytes = 128;
 
 bool is_cold(const Session& session) { return is_cold(session.bench_case()); }
 
-/// Links beside the measured one.
+/// Links in addition to the measured one.
 int idle_links(const Session& session) {
     return session.bench_case().operation == "paired-64-links" ? 63 : 0;
 }
@@ -39,20 +40,20 @@ std::string idle_link_name(const Session& session, int number) {
 
 bool is_event_driven(const Session& session) { return session.bench_case().wake == Wake::blocking; }
 
-/// What BenchPing and BenchPong call the type of their ports.
+/// The type of the ports of BenchPing and BenchPong.
 const char* message_name(const Session& session) {
     if (session.bytes() == note_bytes) return "note";
     return session.bytes() == mebibyte ? "image" : "doubles";
 }
 
-/// How many messages do not count. A picture takes thousands of times as long as a note.
+/// Returns how many messages do not count. A picture takes thousands of times as long as a note.
 std::size_t warm_up(const Session& session) {
     if (is_cold(session)) return 5;
     return session.bytes() == mebibyte || is_event_driven(session) ? 100 : 2000;
 }
 
-/// Of a paired case's window, each way. Few where each takes long: a thread that polls at a real-time priority loses its core once a
-/// second, for 50 ms.
+/// Returns the number of messages each way in a window of a paired case; few where each takes long, because a
+/// thread that polls at a real-time priority loses its core once a second, for 50 ms.
 std::size_t messages_per_half(const Session& session) {
     if (has_long_windows(session)) return 1;
     if (is_cold(session)) return 3;
@@ -60,7 +61,7 @@ std::size_t messages_per_half(const Session& session) {
     return is_event_driven(session) ? 10 : 200;
 }
 
-/// What BenchPing measures: so many times, or ratios of windows.
+/// Returns what BenchPing measures: a number of times, or ratios of windows.
 std::vector<std::pair<std::string, std::string>> amount(const Session& session) {
     if (is_tail(session))
         return {{"samples", std::to_string(2 * session.budget().tail_messages)},
@@ -81,11 +82,11 @@ std::vector<std::pair<std::string, std::string>> amount(const Session& session) 
                                      : session.budget().samples;
     return {{"samples", std::to_string(samples)},
             {"warm_up", std::to_string(warm_up(session))},
-            // The number of cold messages counts, and their intervals take what they take.
+            // The number of cold messages counts, however long their intervals take.
             {"seconds", fmt::format("{:g}", cold ? 60 : session.budget().seconds)}};
 }
 
-/// The profile of BenchPing: with a period of 1 ms it polls for most of the time.
+/// Returns the profile of BenchPing: with a period of 1 ms, it polls most of the time.
 std::string ping_profile(const char* type, int period_ms) {
     return fmt::format(
         "<component_profile><name>BenchPing</name>"
@@ -96,7 +97,7 @@ std::string ping_profile(const char* type, int period_ms) {
         type, period_ms);
 }
 
-/// The OPRoS application: BenchPing, connected to the ports that AdaptorComp mirrors.
+/// Returns the OPRoS application: BenchPing, connected to the ports that AdaptorComp mirrors.
 void write_application_profile(const Session& session, const fs::path& folder) {
     const int interval_ms = is_cold(session) ? cold_interval_ms(session.bench_case()) : 0;
     auto properties = amount(session);
@@ -119,7 +120,7 @@ void write_application_profile(const Session& session, const fs::path& folder) {
                                            connection_xml("data", "Adaptor", "pong", "Ping", "pong"));
 }
 
-/// The RTM side: BenchPong, whose ports InterceptorComp shares over the same link.
+/// Returns the rtc.conf: BenchPong, whose ports InterceptorComp shares over the same link.
 void write_rtc_conf(const Session& session, const fs::path& folder) {
     std::string rtcs = std::string("BenchPong?message=") + message_name(session) +
                        "&event_driven=" + (is_event_driven(session) ? "yes" : "no") +
@@ -131,13 +132,14 @@ void write_rtc_conf(const Session& session, const fs::path& folder) {
                 std::to_string(i);
     std::ofstream(folder / "rtc.conf")
         << rtc_conf_head
-        // So many contexts with nothing to do, and those of RTCs that listen, need not run every millisecond.
+        // Many contexts without work, and contexts of RTCs that only listen, need not run every millisecond.
         << (idle_links(session) > 0 ? "exec_cxt.periodic.rate: 100\n" : "")
         << (is_event_driven(session) ? "exec_cxt.periodic.rate: 10\n" : "")
         << (is_cold(session) && !opros_to_rtm(session)
                 ? fmt::format("exec_cxt.periodic.rate: {}\n", 1000 / cold_interval_ms(session.bench_case()))
                 : "")
-        // As BenchPing and the cold minimal ring; hot, BenchPong never sleeps and needs none.
+        // The same priority as BenchPing and the cold minimal ring. In hot cases BenchPong never sleeps and
+        // needs none.
         << (is_cold(session) ? "exec_cxt.periodic.priority: 5\n" : "")
         << "manager.modules.preload: BenchPong.so, InterceptorComp.so\n"
         << "manager.components.precreate: " << rtcs << "\n";
@@ -150,8 +152,9 @@ void write_files(const Session& session, const fs::path& folder) {
 
 void measure_bridge(Session& session) { measure_between_hosts(session, write_files); }
 
-/// Beside the minimal ring between the same two components: polling, a picture, beside 63 links, event-driven, and cold. And the tail
-/// of one message a millisecond beside that of the minimal ring.
+/// Adds the cases beside the minimal ring between the same two components: polling, a picture, beside 63
+/// links, event-driven, and cold. Also adds the tail of one message per millisecond beside that of the
+/// minimal ring.
 void add_paired_bridge_cases(Registry& registry, const char* direction) {
     Case paired{.subject = "bridge",
                 .operation = "paired-one-way",
@@ -162,7 +165,7 @@ void add_paired_bridge_cases(Registry& registry, const char* direction) {
     registry.add(paired);
     Case picture = paired;
     picture.bytes = mebibyte;
-    picture.extra_seconds = 30; // a busy machine takes milliseconds for each
+    picture.extra_seconds = 30; // each takes milliseconds on a busy machine
     registry.add(picture);
     Case many_links = paired;
     many_links.operation = "paired-64-links";
@@ -203,7 +206,7 @@ void add_bridge_cases(Registry& registry) {
         registry.add({.subject = "bridge",
                       .operation = "one-way",
                       .bytes = mebibyte,
-                      .extra_seconds = 10, // a busy machine takes milliseconds for each
+                      .extra_seconds = 10, // each takes milliseconds on a busy machine
                       .detail = direction,
                       .run = measure_bridge});
     for (const int interval_ms : cold_intervals_ms)

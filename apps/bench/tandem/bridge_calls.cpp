@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Service calls across the bridge, `double add(double, double)`: BenchCallComp in opros_host calls BenchCallRtc in rtm_host, or
-// the other way round. The components call without a pause, so that with the hosts' default, spin-then-futex, caller and worker
-// poll; with `--wait-mode futex` both sleep at once.
+// Service calls across the bridge, `double add(double, double)`: BenchCallComp in opros_host calls
+// BenchCallRtc in rtm_host, or the reverse. The components call without a pause, so with the hosts' default,
+// spin-then-futex, caller and worker poll; with `--wait-mode futex` both sleep at once.
 #include "apps/bench/harness/cases.hpp"
 #include "apps/bench/harness/registry.hpp"
 #include "apps/bench/tandem/bench_host.hpp"
@@ -20,7 +20,7 @@ using Properties = std::vector<std::pair<std::string, std::string>>;
 
 bool is_asleep(const Session& session) { return session.bench_case().wake == Wake::blocking; }
 
-/// Of the component that answers: it has none but the floor of a paired case.
+/// Returns the properties of the answering component: only the floor of a paired case.
 Properties answerer_properties(const Session& session) {
     if (!is_paired(session)) return {};
     return {{"floor", floor_file(session)}, {"sleeps", is_asleep(session) ? "yes" : "no"}};
@@ -39,14 +39,15 @@ Properties caller_properties(const Session& session, const fs::path& folder) {
     return properties;
 }
 
-/// As rtc.conf gives an RTC its properties.
+/// Returns the properties as rtc.conf gives them to an RTC.
 std::string as_query(const Properties& properties) {
     std::string text;
     for (const auto& [name, value] : properties) text += (text.empty() ? "?" : "&") + name + "=" + value;
     return text;
 }
 
-/// The profile of BenchCallComp. A tick of the one that answers in a paired case would take the core from its threads.
+/// Returns the profile of BenchCallComp. In a paired case, a tick of the answering component would take the
+/// core from its threads.
 std::string call_profile(int period_ms) {
     return fmt::format(
         "<component_profile><name>BenchCallComp</name>"

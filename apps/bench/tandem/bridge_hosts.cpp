@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Shows both as well: the ratio alone does not say whether the machine or the bridge is slow.
+/// Also shows both times: the ratio alone does not say whether the machine or the bridge is slow.
 void add_ratio_of_tails(Session& session, const std::vector<double>& values) {
     std::vector<double> bridge, ring;
     for (const double value : values) (std::signbit(value) ? ring : bridge).push_back(std::abs(value));
@@ -63,7 +63,7 @@ std::vector<double> doubles_in(const fs::path& file) {
 
 fs::path samples_file(const fs::path& folder) { return folder / "samples"; }
 
-// Not in a folder whose pages the kernel writes to a disk. It is removed with the case's leftovers.
+// Not in a folder whose pages the kernel writes to a disk. The file is removed with the case's leftovers.
 std::string floor_file(const Session& session) {
     return is_paired(session) ? "/dev/shm/" + session.name() + "-floor" : "";
 }
@@ -72,7 +72,8 @@ bool has_long_windows(const Session& session) {
     return is_cold(session.bench_case()) && cold_interval_ms(session.bench_case()) >= 100;
 }
 
-// A long window takes 0.4 s, and the kernel takes a core from who polls with a priority in every second one.
+// A long window takes 0.4 s, and the kernel takes the core from a thread that polls with a priority in every
+// second window.
 std::size_t paired_windows(const Session& session) {
     return has_long_windows(session) ? 100 : PairedWindows::windows(session.budget());
 }
@@ -90,7 +91,7 @@ void measure_between_hosts(Session& session, void (*write_files)(const Session&,
                    host_arguments);
     host.wait_for(samples_file(folder).filename());
     if (session.is_side_a()) read_samples_from(session, samples_file(folder));
-    session.arrive_and_wait(); // nobody ends the other's host while it writes
+    session.arrive_and_wait(); // neither side ends the host of the other while it writes
     host.stop();
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tandem's call queue, which carries service calls across a link: one client, one server, a request of 64 bytes
-// and a reply of 64.
+// Tandem's call queue, which carries service calls across a link: one client, one server, a request of 64
+// bytes and a reply of 64.
 #include "apps/bench/baseline/index_ring_endpoint.hpp"
 #include "apps/bench/harness/cases.hpp"
 #include "apps/bench/harness/registry.hpp"
@@ -43,7 +43,7 @@ class BenchCallClient {
     explicit BenchCallClient(Session& session)
         : link_(session, arena_bytes), client_(open_queue(link_, true), wait_options(session.bench_case())) {}
 
-    // The reply must hold the number of the request: a late reply to another call would be noticed.
+    // The reply must contain the number of the request, so that a late reply to another call is noticed.
     std::uint64_t call(std::uint64_t sequence) {
         fill_message(message_, bytes, sequence);
         const auto status = client_.call_into(std::as_bytes(std::span(message_)), call_timeout, reply_);
@@ -89,7 +89,7 @@ class BenchCallServer {
     std::optional<shm::IncomingCall> call_; // ends before its server
 };
 
-/// Calls as the Endpoint of paired.hpp.
+/// Calls as an Endpoint of paired.hpp.
 class CallEndpoint {
   public:
     explicit CallEndpoint(Session& session) {
@@ -123,7 +123,7 @@ void add_call_cases(Registry& registry) {
                   .run = measure_calls<BenchCallClient, BenchCallServer>};
         registry.add_with_conditions(call);
         if (wake != Wake::spin) continue;
-        call.placement = Placement::threads; // what the process boundary itself costs
+        call.placement = Placement::threads; // shows the cost of the process boundary itself
         registry.add(call);
     }
     registry.add({.subject = "call-queue",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What OPRoS components of one process cost each other: pushes, calls, events, and the lateness of a 1 ms period,
-// as the engine connects and runs them. Each has its hand-written counterpart in baseline/hand_written.cpp.
+// The cost of pushes, calls and events between OPRoS components of one process, and the lateness of a 1 ms
+// period, as the engine connects and runs them. Each case has a hand-written counterpart in
+// baseline/hand_written.cpp.
 #include "apps/bench/harness/cases.hpp"
 #include "apps/bench/harness/in_process_cases.hpp"
 #include "apps/bench/harness/session.hpp"
@@ -34,7 +35,7 @@ class PartsApplication {
         application_.start();
     }
 
-    /// Throws std::runtime_error if there is none of this name.
+    /// Throws std::runtime_error if there is no component of this name.
     BenchParts& part(const std::string& name) {
         auto* component = application_.find_component(name);
         auto* parts = component ? dynamic_cast<BenchParts*>(&component->component()) : nullptr;
@@ -53,7 +54,7 @@ class PartsApplication {
         return options;
     }
 
-    /// An element of the application profile, from an output port of From to an input port of To.
+    /// Returns an element of the application profile, from an output port of From to an input port of To.
     static std::string connection(const char* type, const char* source, const char* target) {
         return fmt::format(
             "<port_connection port_type=\"{}\"><source component_name=\"From\" port_name=\"{}\"/>"
@@ -88,7 +89,7 @@ class PartsApplication {
     engine::Application application_;
 };
 
-/// From the call of push() until the value is in the other component's queue.
+/// Measures from the call of push() until the value is in the other component's queue.
 void push_double(Session& session) {
     PartsApplication components(session, connected);
     BenchParts& from = components.part("From");
@@ -102,7 +103,7 @@ void push_double(Session& session) {
     if (last <= 0) throw std::runtime_error("the input port has none of the pushed values");
 }
 
-/// The same, and the receiver takes the value out.
+/// Measures from the call of push() until the receiver has taken the value out.
 void push_and_pop(Session& session) {
     PartsApplication components(session, connected);
     BenchParts& from = components.part("From");
@@ -114,7 +115,7 @@ void push_and_pop(Session& session) {
     });
 }
 
-/// An array is copied into the queue.
+/// Measures a push of an array, which is copied into the queue.
 void push_array(Session& session) {
     PartsApplication components(session, connected);
     BenchParts& from = components.part("From");
@@ -122,7 +123,7 @@ void push_array(Session& session) {
     time_each_call(session, [&](double) { from.push(values); });
 }
 
-/// A blocking service call from one component to the other.
+/// Measures a blocking service call from one component to the other.
 void call_doubler(Session& session) {
     PartsApplication components(session, connected);
     BenchParts& from = components.part("From");
@@ -131,8 +132,8 @@ void call_doubler(Session& session) {
     });
 }
 
-/// From send_event() to onEvent() in the engine's worker, which sleeps in between. Sender and worker need a core
-/// each.
+/// Measures from send_event() to onEvent() in the engine's worker, which sleeps in between. Sender and worker
+/// need a core each.
 void event(Session& session) {
     pin_to_all_cores();
     PartsApplication components(session, connected);
@@ -147,15 +148,15 @@ void event(Session& session) {
     time_each_call(session, send_and_wait, [](double) { busy_wait(2e5); });
 }
 
-/// Lets the periodic component tick for so many periods and stops the application.
+/// Lets the periodic component tick for `ticks` periods and stops the application.
 void run_for(BenchParts& parts, engine::Application& application, int periods) {
     std::this_thread::sleep_for(std::chrono::nanoseconds(tick_period_ns) * periods);
     application.stop();
     if (parts.tick_record().ticks() == 0) throw std::runtime_error("the component has not ticked");
 }
 
-/// How long after its planned time onExecute() is called. With tick-spin (Wake::spin) the engine polls the last
-/// 200 us before each tick.
+/// Measures how long after its planned time onExecute() is called. With tick-spin (Wake::spin), the engine
+/// polls the last 200 us before each tick.
 void measure_executor_lateness(Session& session) {
     const bool spin = session.bench_case().wake == Wake::spin;
     PartsApplication components(session, periodic, std::chrono::microseconds(spin ? 200 : 0));
@@ -166,7 +167,7 @@ void measure_executor_lateness(Session& session) {
     session.set_tick_counts(parts.tick_record().counts());
 }
 
-/// By how much the mean period differs from 1 ms.
+/// Measures the difference between the mean period and 1 ms.
 void measure_executor_drift(Session& session) {
     PartsApplication components(session, periodic);
     BenchParts& parts = components.part("From");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tandem's ring in ratio to its floors, measured in alternation with them (paired.hpp): what the acceptance limits use.
+// The ratio of Tandem's ring to its floors, measured in alternation with them (paired.hpp), for the
+// acceptance limits.
 #include "apps/bench/measurements/paired.hpp"
 #include "apps/bench/baseline/index_ring_endpoint.hpp"
 #include "apps/bench/baseline/line_endpoint.hpp"
@@ -22,14 +23,14 @@ void add_paired_cases(Registry& registry) {
     using PollingFloor = IndexRingEndpoint<64, Wake::spin>;
     using SleepingFloor = IndexRingEndpoint<64, Wake::blocking>;
     add(64, Wake::spin, measure_paired_round_trips<RingEndpoint<64, Wake::spin>, PollingFloor>);
-    // Awake: the next message comes before the reader would sleep.
+    // Awake: the next message arrives before the reader would sleep.
     add(64, Wake::spin_then_futex,
         measure_paired_round_trips<RingEndpoint<64, Wake::spin_then_futex>, PollingFloor>);
     const auto asleep = measure_paired_round_trips<RingEndpoint<64, Wake::blocking>, SleepingFloor>;
     add(64, Wake::blocking, asleep);
     paired.power_profile = PowerProfile::low_latency_idle;
     add(64, Wake::blocking, asleep);
-    // On one core the wait mode is the one for it, which yields before it sleeps.
+    // On one core, the wait mode is same-core, which yields before it sleeps.
     paired.power_profile = PowerProfile::normal;
     paired.placement = Placement::same_core;
     add(64, Wake::spin_then_futex,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Many data ports on one link: N rings each way are open, and the messages go through all of them in turn, or
-// (1 used) all through one. What unused ports cost, and what changing ports costs: with 256 in turn each
-// message finds its cache lines in the second-level cache only.
+// (1 used) all through one. The cases show the cost of unused ports and of changing ports: with 256 ports in
+// turn, each message finds its cache lines only in the second-level cache.
 #include "apps/bench/harness/cases.hpp"
 #include "apps/bench/harness/registry.hpp"
 #include "apps/bench/measurements/paired.hpp"
@@ -19,7 +19,7 @@ struct PortUse {
     bool one_used;
 };
 
-/// The case's detail says it: "256 ports (1 used)".
+/// The case's detail contains the number: "256 ports (1 used)".
 PortUse port_use(const Case& bench_case) {
     return {std::stoul(bench_case.detail), bench_case.detail.ends_with(" (1 used)")};
 }
@@ -40,7 +40,7 @@ class PortsEndpoint {
         write_message(out_[next_out_], message_bytes, sequence);
         next_out_ = (next_out_ + step_) % out_.size();
     }
-    /// Polls the port that the next message comes through, as the component with that port does.
+    /// Polls the port through which the next message comes, as the component with that port does.
     std::uint64_t receive() {
         for (;;) {
             const auto record = in_[next_in_].read();
@@ -57,7 +57,7 @@ class PortsEndpoint {
     std::size_t step_, next_out_, next_in_;
 };
 
-/// A link with one port, beside which one with many is measured.
+/// A link with one port, for comparison with a link with many.
 class OnePortEndpoint : public PortsEndpoint {
   public:
     OnePortEndpoint(Session& session, std::size_t /*place*/)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How many system calls and allocations 100,000 publishes take while the reader is awake. A seccomp filter turns
-// each system call into a signal, whose handler counts it; operator new is replaced by one that counts.
+// Counts the system calls and allocations of 100,000 publishes while the reader is awake. A seccomp filter
+// turns each system call into a signal, whose handler counts it. operator new is replaced by one that counts.
 #include "apps/bench/harness/allocation_count.hpp"
 #include "apps/bench/harness/cases.hpp"
 #include "apps/bench/harness/registry.hpp"
@@ -19,8 +19,8 @@ namespace {
 constexpr int publishes = 100'000;
 volatile std::sig_atomic_t system_calls = 0;
 
-/// From here on every system call of this thread fails and is counted, but those that end the process or a signal
-/// handler. It cannot be undone: the process can only spin on shared memory and end.
+/// From here on, every system call of this thread fails and is counted, except those that end the process or
+/// a signal handler. This cannot be undone: the process can only poll shared memory and end.
 void count_system_calls() {
     struct sigaction action {};
     action.sa_handler = [](int) { system_calls = system_calls + 1; };
@@ -39,11 +39,11 @@ void count_system_calls() {
         throw std::system_error(errno, std::generic_category(), "cannot set a seccomp filter");
 }
 
-/// A publishes, B polls for as long as it takes. Each publish must find the reader awake.
+/// A publishes; B polls for as long as it takes. Each publish must find the reader awake.
 template <Wake wake>
 void count_publishes(Session& session) {
     using Endpoint = RingEndpoint<64, wake>;
-    Endpoint endpoint(session, std::chrono::seconds(10)); // of polling: the reader never sleeps
+    Endpoint endpoint(session, std::chrono::seconds(10)); // for polling: the reader never sleeps
     session.arrive_and_wait();
     if (!session.is_side_a()) {
         while (endpoint.receive() != stop_sequence) {

@@ -4,10 +4,10 @@
 
 namespace tandem::bench {
 
-/// A link with one ring in each direction. Short messages are copied out of the ring, long ones are read where
-/// they were written. The reader polls, as a component that calls isNew() or pop() in its own cycle, or waits on
-/// its side's doorbell with wait_for(), which looks at the ring. (The proxy's ArrivalNotifier, which has many rings,
-/// waits with wait().)
+/// A link with one ring in each direction. Short messages are copied out of the ring; long messages are read
+/// where they were written. The reader polls, like a component that calls isNew() or pop() in its own cycle,
+/// or waits on its side's doorbell with wait_for(), which checks the ring. (The proxy's ArrivalNotifier,
+/// which has many rings, waits with wait().)
 template <std::size_t bytes, Wake wake>
 class RingEndpoint {
   public:
@@ -22,7 +22,8 @@ class RingEndpoint {
         if (wake != Wake::spin) link_.segment().ring_peer(0); // a system call only if the reader sleeps
     }
 
-    /// The doorbell's wait ends when a message has come; the second is only for a peer that has died.
+    /// The doorbell's wait ends when a message has arrived. The limit of one second is only for a peer that
+    /// has died.
     std::uint64_t receive() {
         for (;;) {
             if (const auto record = in_.read()) return checked_sequence(record->bytes.data(), bytes);

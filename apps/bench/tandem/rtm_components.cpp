@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What RT-Components of one process cost each other: writes, service calls, allocations, and the lateness of a
-// 1 ms period, as the manager connects and runs them. To be compared with the cases of opros, hand-written and
-// cyclictest.
+// The cost of writes, service calls and allocations between RT-Components of one process, and the lateness of
+// a 1 ms period, as the manager connects and runs them. For comparison with the cases of opros, hand-written
+// and cyclictest.
 #include "apps/bench/harness/allocation_count.hpp"
 #include "apps/bench/harness/cases.hpp"
 #include "apps/bench/harness/in_process_cases.hpp"
@@ -69,7 +69,7 @@ class Parts : public RTC::DataFlowComponentBase {
 };
 
 /// The manager of this process with two components, From and To. Their ports are connected over `interface`
-/// ("direct", "corba_cdr"), and To is activated; if it is empty, they are not.
+/// ("direct", "corba_cdr") and To is activated, unless `interface` is empty.
 class Components {
   public:
     explicit Components(const std::string& interface, std::chrono::nanoseconds tick_spin = {})
@@ -88,13 +88,13 @@ class Components {
     }
     ~Components() { manager_.shutdown(); }
 
-    /// The component of that instance name.
+    /// Returns the component with that instance name.
     Parts& part(const char* name) { return dynamic_cast<Parts&>(*manager_.getComponent(name)); }
     RTC::Manager& manager() { return manager_; }
 
   private:
     static RTC::Manager& start(std::chrono::nanoseconds tick_spin) {
-        // No configuration file and no name server: nothing outside of this process takes part.
+        // No configuration file and no name server, so that nothing outside this process takes part.
         coil::Argv argv(
             {"bench", "-i", "-f", "/none", "-o", "naming.enable:NO", "-o", "logger.log_level:ERROR"});
         RTC::Manager::Options options;
@@ -104,7 +104,7 @@ class Components {
     RTC::Manager& manager_;
 };
 
-/// From the call of write() until the value is in the other component's buffer.
+/// Measures from the call of write() until the value is in the other component's buffer.
 void write_long(Session& session) {
     Components components(session.bench_case().detail);
     Parts& from = components.part("From");
@@ -118,7 +118,7 @@ void write_long(Session& session) {
         throw std::runtime_error("the InPort has another value than the last one written");
 }
 
-/// The same with a sequence, whose memory must not be allocated for each value.
+/// Measures write() of a sequence, which must not allocate memory for each value.
 void write_seq(Session& session) {
     Components components(session.bench_case().detail);
     Parts& from = components.part("From");
@@ -132,7 +132,7 @@ void write_seq(Session& session) {
         throw std::runtime_error("the InPort has another value than the last one written");
 }
 
-/// A CORBA call inside one process: omniORB calls the servant without a message.
+/// Measures a CORBA call within one process: omniORB calls the servant without a message.
 void call(Session& session) {
     Components components("direct");
     Parts& from = components.part("From");
@@ -143,7 +143,8 @@ void call(Session& session) {
     });
 }
 
-/// Of 100,000 writes and reads of both types; the first 1000 do not count, since buffers grow then.
+/// Counts 100,000 writes and reads of both types. The first 1000 do not count, because buffers grow
+/// meanwhile.
 void count_allocations(Session& session) {
     Components components(session.bench_case().detail);
     Parts& from = components.part("From");
@@ -160,7 +161,7 @@ void count_allocations(Session& session) {
     session.add_result(static_cast<double>(allocation_count() - before));
 }
 
-/// Lets From tick for so many periods and deactivates it.
+/// Lets From tick for `ticks` periods and deactivates it.
 void tick_for(Components& components, int periods) {
     components.part("From").record.prepare(tick_period_ns, static_cast<std::size_t>(periods),
                                            rt::grid_origin.count());
@@ -170,8 +171,8 @@ void tick_for(Components& components, int periods) {
     if (components.part("From").record.ticks() == 0) throw std::runtime_error("the component has not ticked");
 }
 
-/// How long after its planned time onExecute() is called. With tick-spin (Wake::spin) the context polls the last
-/// 200 us before each tick.
+/// Measures how long after its planned time onExecute() is called. With tick-spin (Wake::spin), the context
+/// polls the last 200 us before each tick.
 void measure_lateness(Session& session) {
     const bool spin = session.bench_case().wake == Wake::spin;
     Components components("", std::chrono::microseconds(spin ? 200 : 0));
@@ -181,7 +182,7 @@ void measure_lateness(Session& session) {
     session.set_tick_counts(record.counts());
 }
 
-/// By how much the mean period differs from 1 ms.
+/// Measures the difference between the mean period and 1 ms.
 void drift(Session& session) {
     Components components("");
     tick_for(components, drift_ticks(session.budget()));

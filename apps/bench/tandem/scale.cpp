@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the cost of a host grows with the number of its components and their rate. The samples are the lateness of the
-// components' cycles; processor time, start, end, memory and threads are printed beside them.
+// How the cost of a host grows with the number of its components and their rate. The samples are the lateness
+// of the components' cycles. Processor time, times of start and end, memory and number of threads are printed
+// with them.
 #include "apps/bench/harness/cases.hpp"
 #include "apps/bench/harness/registry.hpp"
 #include "apps/bench/harness/session.hpp"
@@ -60,7 +61,7 @@ void write_application(const System& system, const fs::path& folder) {
         << 1e3 / system.rate << "</period></execution_semantics></component_profile>\n";
 }
 
-/// Returns a field of /proc/PID/status, such as `Threads`; of memory in KiB.
+/// Returns a field of /proc/PID/status, such as `Threads`; memory in KiB.
 double status_field(pid_t pid, const std::string& name) {
     std::ifstream file(fmt::format("/proc/{}/status", pid));
     for (std::string line; std::getline(file, line);)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tandem's ring without a pause: short messages, and large ones read in place or copied out. A data port drops
-// the oldest message when its ring is full; so that none is lost, the reader returns credits over a second
-// port, as two components do that need flow control.
+// Tandem's ring without a pause: short messages, and large ones read in place or copied out. A data port
+// drops the oldest message when its ring is full. To lose none, the reader returns credits over a second
+// port, as two components with flow control do.
 #include "apps/bench/baseline/stream_endpoints.hpp"
 #include "apps/bench/harness/cases.hpp"
 #include "apps/bench/measurements/paired.hpp"
@@ -15,7 +15,7 @@ namespace tandem::bench {
 
 namespace {
 
-/// A sends messages, B credits: how many messages it has received so far.
+/// A sends messages; B sends credits, which say how many messages it has received so far.
 template <std::size_t bytes>
 class StreamEndpoint {
   public:
@@ -34,17 +34,18 @@ class StreamEndpoint {
     }
 
   protected:
-    /// Waits for a message and returns use(its first byte). The message is valid only in use().
+    /// Waits for a message and returns use(its first byte). The message is valid only during use().
     template <class Use>
     std::uint64_t receive_with(Use&& use) {
         for (;;) {
             const auto record = in_.read();
             if (!record) {
-                // Leaves the writer its cache line; the minimal ring's reader does the same.
+                // Keeps off the writer's cache line, as the minimal ring's reader does.
                 if (is_short) shm::Processor::pause();
                 continue;
             }
-            // Before the content is used: a large message is used longer than the credit travels.
+            // Before the content is used, because a large message is used for longer than the credit takes to
+            // arrive.
             if (++received_ % credit_interval == 0) write_message(out_, sizeof received_, received_);
             return use(record->bytes.data());
         }
@@ -53,7 +54,8 @@ class StreamEndpoint {
   private:
     static constexpr bool is_short = bytes <= 4096;
     static constexpr std::size_t capacity = is_short ? std::size_t{1024} * 1024 : BenchLink::default_capacity;
-    // Messages on the way: of short ones fewer than the ring holds; of large ones all chunks but the reader's.
+    // Messages under way: fewer short ones than the ring holds; of large ones, all chunks except the
+    // reader's.
     static constexpr std::uint64_t window = is_short ? 4096 : BenchLink::chunks - 1;
     static constexpr std::uint64_t credit_interval = is_short ? 256 : 1;
 
@@ -62,7 +64,7 @@ class StreamEndpoint {
             credits_ = checked_sequence(credit->bytes.data(), sizeof credits_);
     }
 
-    // In this order: rings live in the link's memory.
+    // In this order, because rings are in the link's memory.
     BenchLink link_;
     shm::RingWriter out_;
     shm::RingReader in_;
@@ -70,7 +72,7 @@ class StreamEndpoint {
     std::uint64_t received_ = 0;           // of B
 };
 
-/// Copies each message out before it is used, as a component does that keeps the value.
+/// Copies each message out before it is used, like a component that keeps the value.
 template <std::size_t bytes>
 class CopyingStreamEndpoint : public StreamEndpoint<bytes> {
   public:
@@ -93,7 +95,7 @@ void add_large_streams(RingCases<RingEndpoint>& cases) {
     cases.add_large_stream<CopyingStreamEndpoint<bytes>>(bytes, "copy");
 }
 
-/// The time of a message beside that of the minimal ring, in alternation.
+/// Measures the time of a message beside that of the minimal ring, in alternation.
 template <class Endpoint, class Floor, std::size_t places = 1>
 void add_paired_stream(Registry& registry, std::size_t bytes, const std::string& detail) {
     registry.add({.subject = "ring",
@@ -113,7 +115,7 @@ void add_stream_cases(Registry& registry) {
     add_large_streams<65536>(cases);
     add_large_streams<mebibyte>(cases);
     add_large_streams<6 * mebibyte>(cases);
-    // 48 bytes and the header of a record fill one cache line, as a slot of the floor; 64 bytes take two.
+    // 48 bytes and the header of a record fill one cache line, like a slot of the floor; 64 bytes take two.
     add_paired_stream<StreamEndpoint<48>, SmallStreamEndpoint, 10>(registry, 48, "");
     add_paired_stream<StreamEndpoint<64>, SmallStreamEndpoint, 10>(registry, 64, "");
     add_paired_stream<StreamEndpoint<mebibyte>, IndexRingEndpoint<mebibyte, Wake::spin>>(registry, mebibyte,

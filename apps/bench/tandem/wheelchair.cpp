@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The latency of the paper's Table 1: from JoystickComp's sending to ControlComp's reading while the wheelchair
-// drives, with all components OPRoS, all RTM, and mixed across the bridge. A message every 10 ms.
+// The latency of the paper's Table 1, from JoystickComp's sending to ControlComp's reading, while the
+// wheelchair drives: with all components OPRoS, all RTM, and mixed across the bridge. A message every 10 ms.
 #include "apps/bench/harness/cases.hpp"
 #include "apps/bench/harness/registry.hpp"
 #include "apps/bench/harness/session.hpp"
@@ -15,7 +15,7 @@ namespace tandem::bench {
 namespace {
 
 constexpr double settling_seconds = 1.0;      // the chair has reached its speed then
-constexpr std::size_t settling_samples = 100; // that many messages come in this time
+constexpr std::size_t settling_samples = 100; // number of messages in this time
 
 /// The cores that A and B are pinned to. [both sides]
 std::pair<int, int> cores_of_both(Session& session) {
@@ -25,12 +25,12 @@ std::pair<int, int> cores_of_both(Session& session) {
     return {cores[0], cores[1]};
 }
 
-/// A runs the wheelchair, whose hosts get both cores; B only holds its core for them.
+/// A runs the wheelchair, whose hosts get both cores; B only reserves its core for them.
 template <wheelchair::Configuration configuration>
 void drive(Session& session) {
     const auto [a, b] = cores_of_both(session);
     if (session.is_side_a()) {
-        // The run prints its progress for a user; it would spoil the report.
+        // The run prints its progress for a user, which would disturb the report.
         if (std::freopen("/dev/null", "w", stdout) == nullptr)
             throw std::runtime_error("cannot open /dev/null");
         cpu_set_t both; // the hosts inherit it
@@ -42,7 +42,7 @@ void drive(Session& session) {
         options.duration = settling_seconds + std::max(1.5, session.budget().seconds * 2);
         options.opros_cpu = a;
         options.rtm_cpu = b;
-        // As `wheelchair` runs it, with both hosts as child processes.
+        // Runs it as `wheelchair` does, with both hosts as child processes.
         const auto result = wheelchair::run(options, configuration);
         if (!result.failures.empty()) throw std::runtime_error(result.failures.front());
         const std::size_t first = std::min(settling_samples, result.latencies.size());

@@ -20,8 +20,8 @@ void add_census_command(CLI::App& parent, const CensusModel& model, const char* 
             "the\n"
             "folders. Child processes have no input, at most 4 GiB of memory each and files of at most 256 "
             "MiB;\n"
-            "whatever a component leaves running is killed. Components are started as they are: put robots\n"
-            "out of reach of their drives.\n"
+            "whatever a component leaves running is killed. Components run unchanged and may move hardware:\n"
+            "switch off the motors of connected robots first.\n"
             "Exit code 0 if all components run, 2 if one does not, 1 if there is none or the census is "
             "interrupted.",
             what));

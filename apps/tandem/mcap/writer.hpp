@@ -49,7 +49,7 @@ class McapWriter {
         bool closed = false; ///< the file has its summary and its end
         std::uint64_t messages = 0, lost_messages = 0;
     };
-    /// Ends the file after an Error of the sink: drops what is behind the last chunk or flush, and closes the file there
+    /// Ends the file after an Error of the sink: drops everything after the last chunk or flush, and closes the file there
     /// if the sink can. The room for it was reserved with that chunk. Write nothing afterwards.
     Rest end_at_last_chunk();
     std::uint64_t messages() const { return summary_.messages(); }

@@ -14,7 +14,7 @@ namespace {
 
 /// Interval in ns for finding a missing segment and for checking a segment for changes.
 constexpr std::uint64_t look_interval_ns = 50'000'000;
-/// With a budget, a port's ring is read in steps of so many bytes, and so many at most in one poll().
+/// With a budget, the bytes in one step of reading a port's ring, and the largest number of steps in one poll().
 constexpr std::size_t step_bytes = std::size_t{256} << 10;
 constexpr int max_steps = 32;
 

@@ -33,7 +33,7 @@ void add_record_commands(CLI::App& tandem, Action& selected) {
         "Service calls become the channels /LINK/PORT/OPERATION/request, reply and failure. If a call's "
         "slot\n"
         "in shared memory was reused before the recorder looked, the call is counted but not recorded. Set\n"
-        "TANDEM_CALL_HISTORY=1 in the environment of the hosts to keep 15 more calls readable.\n"
+        "TANDEM_CALL_HISTORY=1 in the environment of the hosts to keep 127 more calls readable.\n"
         "tandem bag info FILE shows the contents. Foxglove, Lichtblick and PlotJuggler open the file.");
     command->add_option("LINK", options->links, "names of links")->required();
     command->add_option("--port", options->ports, "only this port (repeatable; all ports)")

@@ -15,7 +15,7 @@ namespace tandem::command {
 /// Compares a system's answers with the recorded ones, per topic and in order. [any-thread]
 class Comparison {
   public:
-    /// `times`: compare the stamps, too.
+    /// `times`: also compare the time stamps.
     explicit Comparison(bool times) : times_(times) {}
 
     /// Sets the lock-step tick of subsequent calls of expect().

@@ -47,7 +47,7 @@ void add_replay_command(CLI::App& tandem, Action& selected) {
     add_plugin_path(command, options->plugin_dirs);
     command->get_option("--plugin-path")->needs(lockstep);
     auto* check = command->add_flag("--check", options->check, "compare each answer with the recorded one");
-    command->add_flag("--times", options->times, "compare the times of sending, too")->needs(check);
+    command->add_flag("--times", options->times, "also compare the times of sending")->needs(check);
     add_seconds(command, "--wait", options->wait_s, "time limit for the other hosts to become ready (60)");
     command->callback([=, &selected] { selected = [options] { return replay(*options); }; });
 }

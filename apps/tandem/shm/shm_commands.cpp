@@ -36,7 +36,7 @@ constexpr CommandHelp stats_help{
     "Shows counters of every ring and call queue, or with --watch their rates per second",
     "Counters of a ring since the segment was created:\n"
     "  sent = received + refused + overwritten + skipped + waiting\n"
-    "  refused      the ring was full, or the record was too long\n"
+    "  refused      dropped by the sender: no room, too long, or not convertible\n"
     "  overwritten  the writer dropped the record to make room for a newer one\n"
     "  skipped      the reader took newer records, because its queue is shorter than the backlog\n"
     "  waiting      written but not read yet\n"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The header of OpenCV 1 and 2 of this name, over what OpenCV 4 has of their C API. What is missing in OpenCV 4 is missing
-// here. The C++ modules that cv.h of OpenCV 2 included come along, as far as they are installed.
+// The header of OpenCV 1 and 2 of this name. It includes the part of their C API that OpenCV 4 still has, and those C++ modules
+// of OpenCV 2's cv.h that are installed.
 #ifndef TANDEM_OPENCV1_CV_H
 #define TANDEM_OPENCV1_CV_H
 

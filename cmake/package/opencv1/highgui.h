@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The header of OpenCV 1 and 2 of this name, over what OpenCV 4 has of their C API. The functions for image files, which it
-// lacks, are here, by means of cv::imread() and cv::imwrite().
+// The header of OpenCV 1 and 2 of this name. It includes the part of their C API that OpenCV 4 still has, and implements the
+// missing functions for image files with cv::imread() and cv::imwrite().
 #ifndef TANDEM_OPENCV1_HIGHGUI_H
 #define TANDEM_OPENCV1_HIGHGUI_H
 
@@ -18,7 +18,7 @@
 #define CV_CVTIMG_FLIP 1
 #define CV_CVTIMG_SWAP_RB 2
 
-/// A new image for cvReleaseImage(); NULL if the file cannot be read.
+/// Returns a new image for cvReleaseImage(); NULL if the file cannot be read.
 inline IplImage* cvLoadImage(const char* file, int flags = CV_LOAD_IMAGE_COLOR) {
     const cv::Mat pixels = cv::imread(file, flags);
     if (pixels.empty()) return NULL;
@@ -26,7 +26,7 @@ inline IplImage* cvLoadImage(const char* file, int flags = CV_LOAD_IMAGE_COLOR) 
     return cvCloneImage(&view);
 }
 
-/// 1 if the file was written, otherwise 0. `parameters` as for cv::imwrite(), with a 0 behind the last pair.
+/// Returns 1 if the file was written, otherwise 0. `parameters` as for cv::imwrite(), with a 0 after the last pair.
 inline int cvSaveImage(const char* file, const CvArr* image, const int* parameters = NULL) {
     std::vector<int> all;
     for (; parameters && *parameters; parameters += 2) all.insert(all.end(), parameters, parameters + 2);
@@ -37,8 +37,8 @@ inline int cvSaveImage(const char* file, const CvArr* image, const int* paramete
     }
 }
 
-/// Copies an image of 8 bits into one of the same size with 1 or 3 channels, upside down with CV_CVTIMG_FLIP, with red and
-/// blue exchanged with CV_CVTIMG_SWAP_RB.
+/// Copies an image of 8 bits into one of the same size with 1 or 3 channels. CV_CVTIMG_FLIP turns it upside down, and
+/// CV_CVTIMG_SWAP_RB exchanges red and blue.
 inline void cvConvertImage(const CvArr* source, CvArr* target, int flags = 0) {
     const cv::Mat from = cv::cvarrToMat(source);
     cv::Mat to = cv::cvarrToMat(target), changed = from;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cameras and video files of OpenCV 1 and 2. OpenCV 4 still declares these functions, but they open nothing: here they are by
-// means of cv::VideoCapture and cv::VideoWriter, under names of their own, since the library has the others.
+// Cameras and video files of OpenCV 1 and 2. OpenCV 4 still declares these functions, but they open nothing. This header
+// implements them with cv::VideoCapture and cv::VideoWriter. Macros give them other names, because the library has the
+// original ones.
 #ifndef TANDEM_OPENCV1_VIDEO_CAPTURE_H
 #define TANDEM_OPENCV1_VIDEO_CAPTURE_H
 
@@ -44,7 +45,7 @@ struct TandemCvVideoWriter {
 #define cvWriteToAVI tandem_cvWriteFrame
 #define cvReleaseVideoWriter tandem_cvReleaseVideoWriter
 
-/// NULL if there is none; what OpenCV throws about a file or device that it cannot read is no more than that.
+/// Returns NULL if the file or device cannot be opened, also if OpenCV throws.
 template <class Source>
 TandemCvCapture* tandem_open_capture(const Source& source) {
     TandemCvCapture* capture = new TandemCvCapture;
@@ -62,7 +63,7 @@ inline TandemCvCapture* tandem_cvCreateCameraCapture(int index) {
     return tandem_open_capture(index < 0 ? 0 : index); // -1: any
 }
 inline int tandem_cvGrabFrame(TandemCvCapture* capture) { return capture && capture->stream.grab() ? 1 : 0; }
-/// The capture's own, until the next one; NULL at the end.
+/// Returns the picture, which is valid until the next call; NULL at the end. The capture owns it.
 inline IplImage* tandem_cvRetrieveFrame(TandemCvCapture* capture, int channel = 0) {
     if (!capture || !capture->stream.retrieve(capture->pixels, channel)) return NULL;
     capture->frame = cvIplImage(capture->pixels);
@@ -83,7 +84,7 @@ inline void tandem_cvReleaseCapture(TandemCvCapture** capture) {
     *capture = NULL;
 }
 
-/// NULL if the file cannot be written so.
+/// Returns NULL if the file cannot be written in this format.
 inline TandemCvVideoWriter* tandem_cvCreateVideoWriter(const char* file, int code, double rate, CvSize size,
                                                        int is_color = 1) {
     TandemCvVideoWriter* writer = new TandemCvVideoWriter;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Service calls that cross a link and take long. Ours: for OPRoS components and for RTCs alike, which may use it or not. In
-// calls that do not cross a link, and in those of another process by CORBA, nothing is ever said or cancelled.
+// Progress and cancellation of long service calls across a link. Ours: OPRoS components and RTCs may use it. It has no effect
+// on calls that do not cross a link, or that go to another process by CORBA.
 #ifndef TANDEM_CALL_H_
 #define TANDEM_CALL_H_
 
@@ -9,14 +9,14 @@
 
 namespace tandem {
 
-// For the method or operation that is called, in the thread in which it is called.
+// For the method or operation that is called, in the thread in which it runs.
 
-/// Whether nobody waits for the result of the call that this thread executes: the caller has cancelled it, its deadline is
-/// over, its process has ended, or this host ends. A method that takes long asks now and then, and returns if so: what it
-/// returns is dropped. False in a thread that executes no call from across a link. Takes a few loads.
+/// Returns whether nobody waits for the result of the call that this thread executes: the caller has cancelled it, its
+/// deadline has passed, the caller's process has ended, or this host is ending. A long method should check this from time to
+/// time and return; its result is dropped. Returns false in a thread that executes no call from a link. Takes a few loads.
 bool call_cancelled();
 
-/// Says how far the call is that this thread executes: 0 to 1.
+/// Reports the progress of the call that this thread executes: 0 to 1.
 void set_call_progress(double share);
 
 namespace call {
@@ -25,25 +25,25 @@ struct HandleState;
 
 // For the component that calls.
 
-/// Cancels calls and tells how far they are: those that are made while a CallScope of this handle is there. Copies are
-/// handles of the same calls. [any-thread]
+/// Cancels calls and shows their progress: the calls that are made while a CallScope of this handle exists. A copy is a handle
+/// of the same calls. [any-thread]
 class CallHandle {
   public:
-    /// `max_duration` bounds the calls instead of the link's call_timeout, within which they still have to begin; 0 means
-    /// no other bound. At most 24 h.
+    /// `max_duration`: replaces the link's call_timeout as the bound of each call, at most 24 h; 0: keeps call_timeout. A call
+    /// must still begin within call_timeout.
     explicit CallHandle(std::chrono::milliseconds max_duration = std::chrono::milliseconds(0));
 
-    /// Ends the calls of this handle, within 5 ms: they fail as cancelled, whatever the provider does. One that has not begun
-    /// never begins; one that runs finds call_cancelled(). A call that has ended stays as it is, and so may one that is
-    /// answered at this moment. For ever: another call needs another handle.
+    /// Ends the calls of this handle within 5 ms: they fail as cancelled, whatever the provider does. A call that has not begun
+    /// never begins. In a call that runs, call_cancelled() returns true. Has no effect on a call that has ended, and perhaps
+    /// none on one that is answered at this moment. The handle stays cancelled: use another one for further calls.
     void cancel();
     bool cancelled() const;
 
-    /// What the provider of the newest call has said, 0 to 1, up to 5 ms ago; negative: nothing.
+    /// Returns the progress that the provider of the newest call has reported, 0 to 1, up to 5 ms old; negative: none yet.
     double progress() const;
 
-    /// Whether a call that does not wait for its reply has not ended: a oneway operation, or a non-blocking method that
-    /// returns nothing.
+    /// Returns whether a call that does not wait for its reply is still running: a oneway operation, or a non-blocking
+    /// method without a result.
     bool pending() const;
 
   private:
@@ -51,7 +51,7 @@ class CallHandle {
     std::shared_ptr<call::HandleState> m_state;
 };
 
-/// While it is there, the calls of this thread are those of the handle; the innermost one counts. [one thread]
+/// While it exists, calls of this thread belong to the handle. Of nested scopes, the innermost counts. [one thread]
 class CallScope {
   public:
     explicit CallScope(const CallHandle& handle);

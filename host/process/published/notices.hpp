@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lists what this process was asked for and does not do: settings that are not in effect, components that it could not
-// create, and other processes that do not get its messages; and what it cannot show to observers. Other processes of the same user can read the list without asking this process: it is in a memory file without a
-// path (memfd_create), which they find as /proc/PID/fd/N. The file ends with the process.
+// Lists requests that this process does not fulfil: settings that are not in effect, components that it could not create, and
+// other processes that do not get its messages. Also lists what it cannot show to observers. Other processes of the same user
+// can read the list without asking this process: it is in a memory file without a path (memfd_create), which they find as
+// /proc/PID/fd/N. The file ends with the process.
 #pragma once
 
 #include <cstddef>

@@ -50,9 +50,9 @@ std::string check_picture(wire::CdrReader& in, PictureBytes bytes) {
         return fmt::format("a picture of {} x {} pixels of {} bytes has {} bytes and the size {}: {}", width,
                            height, pixel_bytes, count, size, expected);
     };
-    if (!in.ok()) return ""; // what reads the value says so
+    if (!in.ok()) return ""; // the archive that reads the value reports this
     if (width < 0 || height < 0 || pixel_bytes < 0 || pixel_bytes > max_pixel_bytes || count > max_bytes)
-        return error("expected are 0 or more, for a pixel at most 64 bytes, for all at most 1 GiB");
+        return error("expected sizes from 0, at most 64 bytes per pixel, and at most 1 GiB");
     const std::uint64_t pixels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
     // More pixels than bytes are refused first: their product may be more than 64 bits hold.
     if (pixels > count) return error("at least one byte per pixel is expected");
@@ -60,7 +60,7 @@ std::string check_picture(wire::CdrReader& in, PictureBytes bytes) {
     const bool fits =
         bytes == PictureBytes::exact ? expected == count && expected == size : expected <= count;
     if (!fits || (pixels > 0 && pixel_bytes == 0))
-        return error(fmt::format("expected are {} bytes, at least one for each pixel", expected));
+        return error(fmt::format("expected {} bytes, at least one per pixel", expected));
     return "";
 }
 

@@ -15,7 +15,7 @@ std::optional<wire::Type> pictures_in(wire::Type type);
 
 /// How the number of bytes of a picture must compare with width x height x pixelByte.
 enum class PictureBytes {
-    exact,   ///< a component will read it: `size` must be the same number, too
+    exact,   ///< a component will read it, so `size` must also be that number
     or_more, ///< a component has sent it: reset() to a smaller picture keeps the longer memory
 };
 

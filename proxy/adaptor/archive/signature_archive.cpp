@@ -24,7 +24,7 @@ constexpr char type_code = code_of<T>();
 
 long long SignatureArchive::next_value() { return leaf_ < values_.size() ? values_[leaf_++] : 0; }
 
-/// Appends the code of what is loaded, behind the name that its member has.
+/// Appends the code of the loaded type, after the name of its member.
 void SignatureArchive::append(std::string_view text) {
     if (!name_.empty()) signature_ += '{' + std::exchange(name_, "") + '}';
     signature_ += text;

@@ -25,7 +25,7 @@ class ValueType {
     virtual opros_any sample() const = 0;
     /// Encodes `value`, which has this type. Throws archive_type_exception for a string with a NUL.
     virtual void encode(opros_any& value, wire::CdrWriter& out) const = 0;
-    /// Decodes into a value of this type. Throws archive_type_exception if the bytes are no such value.
+    /// Decodes into a value of this type. Throws archive_type_exception if the bytes are not such a value.
     virtual void decode(opros_any& value, wire::CdrReader& in) const = 0;
     /// Encodes an argument of a call; returns false if it has another type.
     virtual bool encode_param(opros_params& value, wire::CdrWriter& out) const = 0;

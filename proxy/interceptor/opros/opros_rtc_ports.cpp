@@ -112,7 +112,7 @@ void OprosRtc::send_interfaces() {
     }
 }
 
-/// nullptr behind the last one.
+/// nullptr after the last one.
 OprosRtc::Output* OprosRtc::output_at(std::size_t index) {
     const std::lock_guard lock(outputs_mutex_);
     return index < outputs_.size() ? &outputs_[index] : nullptr;

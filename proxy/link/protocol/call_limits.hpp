@@ -14,10 +14,10 @@ namespace tandem::link {
 constexpr std::uint32_t max_calls = 128;
 /// Threads that execute the peer's calls. Fewer than max_calls would let nested calls block each other.
 constexpr std::size_t max_workers = max_calls;
-/// The stack of such a thread. With --lock-memory, all of it is locked. Components also run on Windows, where a thread has
-/// 1 MiB.
+/// The stack of such a thread, all of which --lock-memory locks. 1 MiB is the default of Windows, so components that also run
+/// there manage with it.
 constexpr std::size_t worker_stack_bytes = std::size_t{1} << 20;
-/// Beyond two threads, one ends if no call has needed it for so long.
+/// Of more than two threads, one ends if no call has needed it for this time.
 constexpr std::chrono::nanoseconds worker_idle_time = std::chrono::seconds(60);
 /// Encoded arguments of a call, and its encoded results.
 constexpr std::size_t max_call_bytes = std::size_t{64} << 20;

@@ -63,7 +63,7 @@ class Conversion {
 
     /// Returns true if the bytes stay unchanged and need no check.
     bool is_identity() const { return identity_; }
-    /// Converts one message. Returns false if the bytes are no such message, or contain a value that the receiver's type
+    /// Converts one message. Returns false if the bytes are not such a message, or contain a value that the receiver's type
     /// does not have; then error() is one line.
     bool run(CdrReader in, CdrWriter& out);
     const std::string& error() const { return error_; }

@@ -50,7 +50,7 @@ void* volatile allocated;
     }
 }
 
-/// What tandem-bench reports for the cases with this name. No rows: ptrace is not permitted here.
+/// Returns the report of tandem-bench for the cases with this name. No rows if ptrace is not permitted.
 std::vector<Row> measured(const std::string& only, const std::string& runs = "1") {
     const auto file =
         std::filesystem::temp_directory_path() / ("path-test-" + std::to_string(getpid()) + ".json");

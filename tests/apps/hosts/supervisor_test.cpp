@@ -104,11 +104,11 @@ TEST_CASE("a host that dies once is restarted at once, and one that keeps dying 
         CHECK_FALSE(host.waits_for_restart());
     }
     CHECK(host.quick_ends == 4);
-    // As if it had run for a long time.
+    // Pretends that it has run for a long time.
     REQUIRE(ended);
     host.started_at -= 60;
     CHECK(s.restart(host) == 0ms);
-    // As if it had ended for hours.
+    // Pretends that it ended hours ago.
     REQUIRE(end_is_reported(s, host));
     host.quick_ends = 1000;
     CHECK(s.restart(host) == 10s);

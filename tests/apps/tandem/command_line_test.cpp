@@ -26,7 +26,8 @@ std::string in_bash(const std::string& script) {
     return output;
 }
 
-/// What bash offers when TAB is pressed behind these words; the last one may be incomplete or "".
+/// Returns the words that bash offers when TAB is pressed after these words; the last one may be incomplete
+/// or "".
 std::string completions(const std::vector<std::string>& words) {
     std::string list;
     for (const auto& word : words) list += " \"" + word + "\"";

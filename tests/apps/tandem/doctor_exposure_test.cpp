@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `tandem doctor` says about things that are open to other users and machines, on file trees made for it.
+// The results of `tandem doctor` about things that are open to other users and machines, on file trees of the
+// test.
 #include "apps/tandem/doctor/exposure.hpp"
 
 #include <catch2/catch.hpp>

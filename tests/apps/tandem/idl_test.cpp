@@ -210,7 +210,7 @@ module Cell {
         folder.run(program + " opros2idl out/RobotService.xml --types out/CellTypes.xml -o Back.idl");
     INFO(made.output);
     REQUIRE(made.exit_code == 0);
-    // Base is an interface of its own there.
+    // Base is a separate interface there.
     REQUIRE(folder.run(program + " opros2idl out/BaseService.xml -o Base.idl").exit_code == 0);
     const auto outline = [&](const std::string& file) {
         return folder.run("PYTHONDONTWRITEBYTECODE=1 omniidl -nf -p" TANDEM_TEST_SOURCES

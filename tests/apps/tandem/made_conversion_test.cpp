@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `tandem link check` says happens to a value on its way.
+// How `tandem link check` describes the conversion of a value.
 #include "apps/tandem/link/made_conversion.hpp"
 
 #include <catch2/catch.hpp>

@@ -35,7 +35,7 @@ class Sending {
     std::thread thread_;
 };
 
-/// What `put` writes, as a message of that signature.
+/// Returns the bytes that `put` writes, as a message of that signature.
 template <class Put>
 nlohmann::ordered_json decoded(const std::string& signature, Put&& put) {
     std::vector<std::byte> bytes;

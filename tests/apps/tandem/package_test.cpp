@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The installed tree, moved after its installation, as somebody uses it who has nothing else of Tandem.
+// The installed tree, moved after its installation, as a user without the source tree uses it.
 #include "program.hpp"
 #include "shell.hpp"
 #include "tests/host/opros/engine/folder.hpp"

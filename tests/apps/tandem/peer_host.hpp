@@ -19,7 +19,7 @@ class PeerHost final : private link::LinkHandler {
     }
     ~PeerHost() override { link_.close(); }
 
-    /// Of the messages so far.
+    /// Counts of the messages so far.
     std::vector<double> values() {
         const std::lock_guard lock(mutex_);
         while (link_.reader("temperature").read(false, [&](const shm::Record& record) {

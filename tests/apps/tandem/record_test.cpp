@@ -189,7 +189,7 @@ std::size_t complete_chunks(const std::string& path) {
     return chunks;
 }
 
-/// Starts a recording, sends, and kills it after so long. Returns how many messages the file has.
+/// Starts a recording, sends, and kills the recorder after this time. Returns how many messages the file has.
 std::size_t kill_recording(FollowedLink& link, const std::string& path, std::chrono::milliseconds after,
                            std::uint32_t& second) {
     shm::test::Child recording([&] {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How recordings begin and end: they destroy nothing, and each orderly or disorderly end leaves what was recorded.
+// The begin and the end of recordings: they destroy nothing, and each orderly or disorderly end keeps the
+// recorded messages.
 #include "apps/tandem/mcap/check_file.hpp"
 #include "apps/tandem/mcap/reader.hpp"
 #include "apps/tandem/record/lockstep_recording.hpp"

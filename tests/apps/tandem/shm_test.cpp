@@ -13,7 +13,7 @@ using namespace tandem::test;
 
 namespace {
 
-/// A host in a process of its own that joins one side and writes until it is killed.
+/// A host in a separate process that joins one side and writes until it is killed.
 Child writing_host(const std::string& link, Side side) {
     Child child([=] {
         const auto segment = Segment::join(link, side, small());

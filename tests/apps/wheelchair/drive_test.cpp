@@ -51,7 +51,7 @@ struct PipeGamepad {
 /// A gamepad with the same axes that the kernel has like any other, from creation to destruction.
 class KernelGamepad {
   public:
-    /// Whether this user may make devices; the rest is for one who may.
+    /// Returns whether this user may create devices; the other tests need this right.
     explicit KernelGamepad() : file_(open("/dev/uinput", O_WRONLY | O_NONBLOCK | O_CLOEXEC)) {
         if (!is_permitted()) return;
         for (const int kind : {EV_KEY, EV_ABS}) REQUIRE(ioctl(file_.get(), UI_SET_EVBIT, kind) == 0);
@@ -84,7 +84,7 @@ class KernelGamepad {
     FileDescriptor file_;
 };
 
-/// Whether the stick comes to be as wanted.
+/// Returns whether the stick reaches the wanted position.
 bool becomes(const LiveStick& stick, const std::function<bool(const JoystickPosition&)>& wanted) {
     for (int i = 0; i < 2000 && !wanted(stick.read()); ++i) std::this_thread::sleep_for(5ms);
     return wanted(stick.read());
@@ -178,7 +178,7 @@ TEST_CASE("positions at the socket move the stick, and silence releases it") {
     std::this_thread::sleep_for(250ms);
     CHECK(stick.read().x == 0);
     CHECK(stick.read().y == 0);
-    // What is no position moves nothing; what is beyond the stick's end is its end.
+    // An invalid position moves nothing; a position beyond the stick's end is its end.
     send(drive, "nonsense", 8);
     const std::string long_one(5000, 'x');
     send(drive, long_one.data(), long_one.size());
@@ -206,7 +206,7 @@ TEST_CASE("a gamepad plugged in while driving moves the stick, and unplugging it
     // Found at the next look; a device's values count from its first event on.
     bool forward = false;
     for (int i = 0; i < 100 && !forward; ++i) {
-        pad.send(EV_ABS, ABS_Y, i % 2); // an unchanged value is no event
+        pad.send(EV_ABS, ABS_Y, i % 2); // an unchanged value causes no event
         std::this_thread::sleep_for(50ms);
         forward = stick.read().y > 1900;
     }

@@ -24,7 +24,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-/// A mixed (or swapped) run in the background, its files in a folder of its own.
+/// A mixed (or swapped) run in the background, with its files in a separate folder.
 class MixedRun {
   public:
     explicit MixedRun(const std::vector<std::string>& more, const std::string& configuration = "mixed")

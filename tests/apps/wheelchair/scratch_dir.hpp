@@ -7,7 +7,7 @@
 #include <iterator>
 #include <string>
 
-/// A folder of its own for a test, removed afterwards.
+/// A separate folder for a test, removed afterwards.
 class ScratchDir {
   public:
     ScratchDir() {

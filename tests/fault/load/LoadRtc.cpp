@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sends data, events and calls as fast as its cycle allows, and counts what comes.
+// Sends data, events and calls as fast as its cycle allows, and counts what arrives.
 #include "../../integration/rtm/register_rtc.hpp"
 #include "LoadSkel.h"
 #include "load_counts.h"

@@ -26,7 +26,7 @@ constexpr int call_threads = 2;
 constexpr std::uint64_t call_deadline_ms = 100;
 constexpr int overtime_buckets = 64;
 
-/// How a call ended. `other` is an error that says neither why nor what became of the call.
+/// The end of a call. `other`: an error that says neither why the call failed nor what became of it.
 enum class CallEnd { ok, not_ready, timeout, peer_died, overload, other };
 constexpr int call_ends = 6;
 
@@ -40,7 +40,7 @@ inline CallEnd call_end_of(const std::string& exception) {
     return CallEnd::other;
 }
 
-/// What one side has counted. A life is one run of its host.
+/// The counts of one side. A life is one run of its host.
 struct SideCounts {
     Count lives, ready_ns; ///< ready_ns: when the component was created in this life
     Count sent, received, wrong, events_sent, events_received;
@@ -102,7 +102,7 @@ class MessagePattern {
     static std::size_t length_of(int number) {
         return number % 64 == 0 ? 60'000 : 2 + static_cast<std::size_t>(number % 300);
     }
-    /// Whether a message that came is as it was sent, and after the last one.
+    /// Returns whether a received message is intact and newer than the last one.
     template <class Numbers>
     bool is_right(const Numbers& message, std::size_t length) {
         if (length < 2) return false;
@@ -148,7 +148,8 @@ class CallLoad {
     std::thread threads_[call_threads];
 };
 
-/// What the service does: of 64 calls one takes longer than the deadline, some take a while, most take no time.
+/// The work of the service: of 64 calls, one takes longer than the deadline, some take a while, most take no
+/// time.
 inline int do_work(int number) {
     if (number % 64 == 0)
         std::this_thread::sleep_for(std::chrono::milliseconds(3 * call_deadline_ms / 2));

@@ -39,7 +39,7 @@ CommandResult run_rtm(const std::string& fault) {
     return tandem::process::run_command({TANDEM_RTM_HOST, "-f", conf});
 }
 
-/// The same with opros_host.
+/// Does the same with opros_host.
 CommandResult run_opros(const std::string& fault) {
     const Folder folder;
     std::string components;

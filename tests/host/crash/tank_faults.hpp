@@ -23,7 +23,7 @@ static int recurse(int depth) {
 
 static void watch_valve() { throw std::runtime_error("valve 3 does not answer"); }
 
-/// Does what the name says; nothing for the empty name.
+/// Causes the fault with this name; nothing for the empty name.
 static void have_fault(const std::string& fault) {
     static TankSensor* volatile no_sensor = nullptr; // volatile: the compiler must not see the faults
     static volatile TankSensor sensor{0, nullptr};

@@ -63,7 +63,7 @@ struct Scene {
     std::optional<RequestServer> server;
 };
 
-/// Whether the server closes the connection.
+/// Returns whether the server closes the connection.
 bool is_closed(const FileDescriptor& fd) {
     pollfd watched{fd.get(), POLLIN, 0};
     char byte = 0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The log of a program that goes on whatever becomes of it: disks that are full for a while, readers that stop reading.
+// The log of a program that continues in spite of disks that are full for a while and readers that stop
+// reading.
 #include "host/log/log_output.hpp"
 
 #include "host/log/log.hpp"
@@ -20,7 +21,8 @@ namespace {
 
 using tandem::shm::FileDescriptor;
 
-/// A file of at most so many bytes, like a disk that is full, until enlarge(). The limit is that of the process: it ends with the scope.
+/// A file with a limit of bytes, like a full disk, until enlarge(). The limit is that of the process and ends
+/// with the scope.
 class LimitedFile {
   public:
     explicit LimitedFile(rlim_t bytes) {
@@ -57,7 +59,7 @@ struct Pipe {
         reader = FileDescriptor(ends[0]);
         writer = FileDescriptor(ends[1]);
     }
-    /// What is in it now.
+    /// Returns the present content.
     std::string take() const {
         std::string text(4 << 20, ' ');
         const auto count = read(reader.get(), text.data(), text.size());

@@ -10,7 +10,7 @@
 
 namespace {
 
-/// What a program with commands prints on standard error.
+/// Returns what a program with commands prints on standard error.
 std::string printed(std::vector<std::string> arguments) {
     CLI::App app{"A program", "tool"};
     app.failure_message(tandem::options::usage_error);

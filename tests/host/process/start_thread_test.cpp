@@ -18,7 +18,7 @@ using tandem::test::holds_at_thread_limit;
 
 namespace {
 
-constexpr rlim_t ample = rlim_t{1} << 46; // bytes of addresses; no process uses so many
+constexpr rlim_t ample = rlim_t{1} << 46; // bytes of address space; more than any process uses
 
 bool names_the_limit(const std::string& line, const std::string& start) {
     return line.starts_with(start) && line.find("Resource temporarily unavailable: ") != std::string::npos &&

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What components of 1.x and 2.x expect of coil.
+// The parts of coil that components of 1.x and 2.x use.
 #include "tests/support/comma_locale.hpp"
 
 #include <catch2/catch.hpp>
@@ -58,7 +58,7 @@ TEST_CASE("A coil TimeValue comes from numbers and goes to seconds as a double")
 
 namespace {
 
-/// A type of a component, with an operator>> of its own.
+/// A type of a component, with a separate operator>>.
 struct Range {
     double from = 0, to = 0;
 };

@@ -138,7 +138,7 @@ class Recorder : public RTC::DataFlowComponentBase {
         static auto* callback = new std::string;
         return *callback;
     }
-    /// Whether the callbacks throw; otherwise they return RTC_ERROR.
+    /// If set, the callbacks throw; otherwise they return RTC_ERROR.
     static bool& throws_exception() {
         static bool yes = false;
         return yes;

@@ -32,7 +32,7 @@ inline std::string unused_port() {
     return std::to_string(ntohs(address.sin_port));
 }
 
-/// Does somebody listen at this TCP port of 127.0.0.1?
+/// Returns whether a process listens at this TCP port of 127.0.0.1.
 inline bool is_listening(const std::string& port) {
     const int fd = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
     sockaddr_in address{};
@@ -81,7 +81,7 @@ class HostProcess {
                          std::chrono::milliseconds timeout = std::chrono::seconds(30)) {
         return wait_for_text(output, text, timeout);
     }
-    /// The same for standard error.
+    /// Does the same for standard error.
     bool wait_for_error(const std::string& text) {
         return wait_for_text(errors, text, std::chrono::seconds(30));
     }
@@ -149,7 +149,7 @@ class HostProcess {
                 return where.find(text) != std::string::npos;
         return true;
     }
-    // Reads what comes on either pipe within 50 ms; false: both are closed.
+    // Reads what arrives on either pipe within 50 ms. Returns false if both are closed.
     bool read_some() {
         pollfd fds[2] = {{out_open_ ? out_ : -1, POLLIN, 0}, {err_open_ ? err_ : -1, POLLIN, 0}};
         if (!out_open_ && !err_open_) return false;

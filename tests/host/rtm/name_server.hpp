@@ -10,7 +10,7 @@
 
 namespace testing {
 
-/// Runs omniNames with a log folder of its own, which is removed at the end, and with it all names.
+/// Runs omniNames with a separate log folder. At the end, the folder and all names are removed.
 class NameServer {
   public:
     explicit NameServer(const std::string& port) {

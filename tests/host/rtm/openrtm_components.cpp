@@ -19,7 +19,8 @@ class FragileManager : public RTM::ManagerServant {
     RTC::RTCList* get_components_by_name(const char*) override { std::_Exit(139); }
 };
 
-/// Publishes a FragileManager as the manager of its process if that has none (manager.corba_servant: NO).
+/// Publishes a FragileManager as the manager of its process, which has no other one (manager.corba_servant:
+/// NO).
 class FragileHost : public Counter {
   public:
     explicit FragileHost(RTC::Manager* manager) : Counter(manager), servant_(new FragileManager(*manager)) {
@@ -70,7 +71,7 @@ class FailingCounter : public Counter {
     RTC::ReturnCode_t onExecute(RTC::UniqueId) override { return RTC::RTC_ERROR; }
 };
 
-/// As OpenRTM-aist's: no set is active after values were set, until one is activated.
+/// Behaves like OpenRTM-aist: after values were set, no set is active until one is activated.
 class OpenRtmConfiguration : public SDOPackage::Configuration_impl {
   public:
     using Configuration_impl::Configuration_impl;

@@ -88,7 +88,7 @@ struct AddingListener : RTC::ConnectorDataListenerT<Data> {
     Data last;
 };
 
-/// What the listener makes of a message.
+/// The value that the listener computes from a message.
 template <class Data>
 Bytes after(AddingListener<Data>& listener, const Bytes& message, bool little_endian) {
     RTC::ByteData bytes;

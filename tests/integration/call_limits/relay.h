@@ -52,7 +52,7 @@ class RelayEnd {
   private:
     static constexpr int notes = 2000;
 
-    /// Calls `part(i)` in `count` threads, and says how many have returned true.
+    /// Calls `part(i)` in `count` threads, and returns how many calls returned true.
     void in_threads(const std::string& work, int count, const std::function<bool(int)>& part) {
         std::atomic<int> right{0};
         std::vector<std::thread> threads;

@@ -30,7 +30,7 @@ class ServoHosts : public TwoHosts {
         REQUIRE(rtm({"conf", "ServoRtc0", "fails=1"}).exit_code == 0);
         REQUIRE(says("opros", "Adaptor: RTC 'ServoRtc0' went to ERROR", before));
     }
-    /// Whether new values of the RTC come to Motor from now on.
+    /// Returns whether new values of the RTC reach Motor from now on.
     bool carries_data() const { return says("opros", "Motor torque 2.", output("opros").size()); }
 
   private:

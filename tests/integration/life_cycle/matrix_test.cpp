@@ -148,7 +148,7 @@ LifeCycleHosts::Expected adaptor(const std::string& state, const std::string& fi
     return {{{"Adaptor", state}}, {{"ServoRtc0", first}, {"ServoRtc1", second}}};
 }
 
-/// Of an OPRoS component, its RTC, and the other one, which all this must leave alone.
+/// The states of an OPRoS component, of its RTC, and of another component, which must not change.
 LifeCycleHosts::Expected shared(const std::string& name, const std::string& state, const std::string& rtc) {
     const std::string other = name == "Motor" ? "Pump" : "Motor";
     return {{{name, state}, {other, "ACTIVE"}}, {{name, rtc}, {other, "ACTIVE"}}};

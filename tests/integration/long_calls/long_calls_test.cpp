@@ -35,9 +35,9 @@ struct CraneHosts : TwoHosts {
         const std::string whole = line + "\n";
         REQUIRE(write(pipe_.get(), whole.data(), whole.size()) == static_cast<ssize_t>(whole.size()));
     }
-    /// Whether the call ends as is said, at the caller.
+    /// Returns whether the call ends as expected, at the caller.
     bool ends(const std::string& text) const { return says(caller, "operator: " + text + "\n"); }
-    /// Whether the call of `lift` ends with an exception.
+    /// Returns whether the call of `lift` ends with an exception.
     bool fails() const { return says(caller, "operator: lift IDL:omg.org/CORBA/"); }
     bool crane_says(const std::string& text) const { return says(provider, "crane: " + text + "\n"); }
 
@@ -58,7 +58,7 @@ TEST_CASE("a call that takes longer than call_timeout shows its progress and ret
     hosts.command("watch");
     CHECK(hosts.ends("progress rises"));
     CHECK(hosts.ends("lift 200"));
-    // What has ended cannot be cancelled, and the next call of another handle is not.
+    // A call that has ended cannot be cancelled, and the next call with another handle is not cancelled.
     hosts.command("cancel");
     hosts.command("lift 2");
     CHECK(hosts.ends("lift 2"));

@@ -16,7 +16,7 @@
 #include <unistd.h>
 #include <vector>
 
-/// What its calls throw is turned into text by them.
+/// The calls convert exceptions to text.
 class Operator {
   public:
     using Lift = std::function<std::string(int steps)>;

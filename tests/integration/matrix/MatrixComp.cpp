@@ -31,7 +31,8 @@ class AnyKind {
     virtual bool receive() = 0;
 };
 
-/// The ports of one kind. The port of the policy LAST is read when all values are there, the others as they come.
+/// The ports of one kind. The port with the policy LAST is read when all values have arrived, the others at
+/// once.
 template <class T>
 class Kind : public AnyKind {
   public:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sends back what it receives, of each kind. Sends an any of each type and checks what comes back.
+// Sends back what it receives, for each kind. Sends an any of each type and checks the answer.
 #include "../rtm/register_rtc.hpp"
 #include "tests/proxy/interceptor/anys_of_everything.hpp"
 
@@ -35,7 +35,8 @@ struct Echo : AnyEcho {
     RTC::OutPort<T> out;
 };
 
-/// Answers requests for an any by its number, and prints a line for each that comes back, and one for all of them.
+/// Answers requests for an any by its number. Prints a line for each any that comes back, and one for all of
+/// them.
 class AnyCells {
   public:
     void add_to(RTC::DataFlowComponentBase& component) {

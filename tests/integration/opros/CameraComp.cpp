@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sends pictures of several sizes in turn, one at a time, and says how each came back.
+// Sends pictures of several sizes in turn, one at a time, and prints how each came back.
 #include "simple_component.h"
 
 #include <OPRoSInclude.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sends back each picture that it gets, and says how many those were.
+// Sends back each picture that it receives, and prints their number.
 #include "simple_component.h"
 
 #include <iostream>

@@ -73,7 +73,7 @@ class GuestComp : public SimpleComponent, public IDictionary {
     OutputEventPort<int> knock_;
     InputEventPort<double> notice_;
     DictionaryRequired* const dictionary_ = new DictionaryRequired;
-    std::unique_ptr<Port> removed_dictionary_, removed_shelf_; ///< while they are no ports of the component
+    std::unique_ptr<Port> removed_dictionary_, removed_shelf_; ///< while they are not ports of the component
 };
 
 extern "C" {

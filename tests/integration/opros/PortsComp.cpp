@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sends a value of its own through each of out0 to out7 until all have come back through in0 to in7, and says so.
+// Sends a separate value through each of out0 to out7 until all have come back through in0 to in7, and
+// reports this.
 #include "simple_component.h"
 
 #include <OPRoSInclude.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sends fifty numbers to the RTC and to ports of its own, and prints what its ports have when as many have come from the RTC.
+// Sends fifty numbers to the RTC and to its own ports, and prints the content of its ports when fifty have
+// come from the RTC.
 #include "simple_component.h"
 
 #include <OPRoSInclude.h>

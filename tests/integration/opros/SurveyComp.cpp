@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sends values of classes of its own, and prints what comes back of them.
+// Sends values of user-defined classes, and prints the answers.
 #include "SurveyorRequired.h"
 
 #include "simple_component.h"

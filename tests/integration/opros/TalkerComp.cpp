@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Says a word every cycle, prints what comes back, and asks a service about it.
+// Sends a word in every cycle, prints the answer, and asks a service about it.
 #include "simple_component.h"
 
 #include <OPRoSInclude.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an AdaptorComp of the OPRoS API alone is told of the classes of SurveyComp, but for one: the file of TANDEM_OPROS_TYPES.
+// The classes of SurveyComp, except one, for an AdaptorComp of the public OPRoS API: the file of
+// TANDEM_OPROS_TYPES.
 #pragma once
 
 #include "proxy/adaptor/typed/added_types.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the two sides' own configuration asks of single ports, and ports that are those of a composite's members.
+// Settings of single ports in the configuration of both sides, and ports that belong to a composite's
+// members.
 #include "tests/apps/tandem/program.hpp"
 #include "tests/integration/two_hosts.hpp"
 
@@ -78,14 +79,14 @@ TEST_CASE("converted and undecodable messages are counted once each, in both dir
                           TwoHosts::connection("data", "Range", "small", "Adaptor", "small"));
     hosts.start_rtm();
     hosts.start_opros();
-    // Of twenty numbers from 32758 on, ten are numbers of 16 bits.
+    // Of twenty numbers from 32758 on, ten have 16 bits.
     REQUIRE(hosts.says("opros", "RangeComp number 32767\n"));
     REQUIRE(hosts.says("rtm", "RangeRtc small 32767\n"));
     for (int i = 0; i < 1500; ++i) {
         if (ring_of(hosts, "number")["received"] == 20 && ring_of(hosts, "small")["sent"] == 20) break;
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
-    // The receiver narrows: what does not fit has crossed and is no value for it.
+    // The receiver narrows: a value that does not fit has crossed, but is not valid for the receiver.
     const auto number = ring_of(hosts, "number");
     INFO(number.dump());
     CHECK(number["sent"] == 20);

@@ -8,7 +8,7 @@
 
 namespace {
 
-/// What stands behind `NAME:` in a host's output.
+/// Returns the text after `NAME:` in a host's output.
 std::string printed(const TwoHosts& hosts, const std::string& host, const std::string& name) {
     const std::string output = hosts.output(host), begin = "\n" + name + ":";
     const auto at = output.find(begin);
@@ -82,7 +82,7 @@ TEST_CASE("of fifty messages, a port gets the same ones across the link as withi
     }
     CHECK(printed(hosts, "opros", "refused") == " 46"); // by four_refusing
     CHECK(printed(hosts, "opros", "both") == numbers(47, 50) + ".");
-    // What did not fit is counted.
+    // Messages that did not fit are counted.
     const auto stats = tandem::test::shm_program({"stats", hosts.link(), "--json"});
     REQUIRE(stats.exit_code == 0);
     const auto json = stats.json();

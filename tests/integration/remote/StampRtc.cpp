@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Takes each time that comes in a listener, and sends one of its own from there.
+// Receives each time in a listener, and sends its own time from there.
 #include "tests/integration/remote/stamps.hpp"
 #include "tests/integration/rtm/register_rtc.hpp"
 

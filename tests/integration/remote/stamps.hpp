@@ -7,7 +7,8 @@
 #include <string>
 #include <vector>
 
-/// Counts messages {number, CLOCK_MONOTONIC when it was sent [s], number of the last one}, and says how long they took.
+/// Counts messages {number, CLOCK_MONOTONIC at sending [s], number of the last one}, and reports how long
+/// they took.
 class Stamps {
   public:
     static double now() {

@@ -48,7 +48,7 @@ class EchoRtc : public RTC::DataFlowComponentBase {
         addPort(dictionaryPort_);
         return RTC::RTC_OK;
     }
-    // As a device that needs its time to open and to close: the property `slow_ms`.
+    // Behaves like a device that opens and closes slowly: the property `slow_ms`.
     RTC::ReturnCode_t onActivated(RTC::UniqueId) override { return take_time(); }
     RTC::ReturnCode_t onDeactivated(RTC::UniqueId) override { return take_time(); }
     RTC::ReturnCode_t onExecute(RTC::UniqueId) override {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sends the pictures of many cameras, each with any `bpp`, one in each cycle, and says what it gets back.
+// Sends the pictures of many cameras, each with any `bpp`, one in each cycle, and prints the answers.
 #include "register_rtc.hpp"
 #include <rtm/DataFlowComponentBase.h>
 #include <rtm/DataInPort.h>
@@ -19,7 +19,7 @@ struct GalleryCamera {
     CORBA::ULong bytes;
 };
 
-// The first fourteen are pictures; the others have bytes that are no pixels, or none.
+// The first fourteen are pictures. The others have bytes that are not pixels, or no bytes.
 constexpr GalleryCamera gallery_cameras[] = {
     {320, 240, "", 320 * 240 * 3},
     {320, 240, "", 320 * 240},

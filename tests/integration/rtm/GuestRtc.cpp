@@ -112,7 +112,7 @@ class GuestRtc : public RTC::DataFlowComponentBase {
             addInPort("door", door_);
             if (!is_bound_) {
                 std::this_thread::sleep_for(
-                    std::chrono::milliseconds(15)); // so that whoever looks too early fails
+                    std::chrono::milliseconds(15)); // so that an access that comes too early fails
                 door_.bindEvent("knock", &guest::Top::knock);
                 door_.bindEvent("wait", &guest::Top::wait);
                 is_bound_ = true;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The callback that its property `in` names does not return until the file that its property `until` names is there.
+// The callback that its property `in` names does not return until the file that its property `until` names
+// exists.
 #include "register_rtc.hpp"
 
 #include <rtm/DataFlowComponentBase.h>

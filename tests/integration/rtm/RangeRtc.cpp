@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sends the twenty numbers around the greatest one of 16 bits, one in each cycle, and says what it gets.
+// Sends the twenty numbers around the greatest one of 16 bits, one in each cycle, and prints what it
+// receives.
 #include "register_rtc.hpp"
 #include <rtm/DataFlowComponentBase.h>
 #include <rtm/DataInPort.h>

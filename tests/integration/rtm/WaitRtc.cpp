@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Does nothing by itself: provides a dictionary, and sends out each word that it is asked about.
+// Does nothing by itself: provides a dictionary, and sends each word that it is asked about.
 #include "DictionarySkel.h"
 #include "register_rtc.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How components read the keyboard.
+// Reads the keyboard as components do.
 #pragma once
 
 #include <cstdio>

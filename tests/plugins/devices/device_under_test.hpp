@@ -39,6 +39,6 @@ class DeviceUnderTest {
     Class* device_ = nullptr;
 };
 
-/// The same, as a component of OPRoS v2 does it.
+/// Does the same, as a component of OPRoS v2 does it.
 template <typename Class>
 using DeviceOfV2 = DeviceUnderTest<Class, OprosDevice, OPRoS::Property>;

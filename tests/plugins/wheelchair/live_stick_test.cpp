@@ -16,7 +16,7 @@ using namespace tandem::wheelchair;
 
 namespace {
 
-/// A path at which there is no file, and none is left.
+/// A path without a file. A file that the test creates is removed.
 struct StickPath {
     std::string path =
         (std::filesystem::temp_directory_path() / ("live_stick_test-" + std::to_string(getpid()))).string();
@@ -78,7 +78,7 @@ TEST_CASE("a scenario takes its stick from a live one, and a file that is none i
         CHECK(scenario.name == "recorded");
         writer.write({0, 900, false});
         CHECK(scenario.stick_at(3).y == 900);
-        CHECK_THROWS_AS(LiveStick(file.path, LiveStick::Role::writer), InputError); // it is there already
+        CHECK_THROWS_AS(LiveStick(file.path, LiveStick::Role::writer), InputError); // the file already exists
     }
     std::ofstream(file.path, std::ios::trunc) << "TANDSTK\nshort";
     CHECK_THROWS_AS(load_scenario("", file.path), InputError);

@@ -29,7 +29,7 @@ using link::test::soon;
 
 namespace {
 
-/// A type with RTM's time of its own, as the OPRoS side may have it.
+/// A type that contains RTM's time, which the OPRoS side may have.
 struct Stamped {
     unsigned int sec = 0, nsec = 0;
     std::vector<double> data;

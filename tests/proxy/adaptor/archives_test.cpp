@@ -70,7 +70,7 @@ inline void load_this(opros::archive::iarchive& ar, Named& n) {
         OPROS_SERIALIZATION_MAKE_NVP(tags, n.tags);
 }
 
-/// As a union of IDL is written by hand: a kind, then what that kind has.
+/// A union of IDL, written by hand: a kind, then the members of that kind.
 struct Shape {
     int kind = 0;
     double radius = 0;
@@ -173,7 +173,7 @@ TEST_CASE("a load() that reads different members for each kind fits a union with
         CHECK((type(peer).find('<') != std::string::npos) == shape_alone);
     }
     CHECK(type("<i;0=d;1=(dd);*=s>") == "<i;0=d;1=(dd);*=s>"); // load() takes 2 and above for a name
-    CHECK(type("<i;0=d;1=f>") == "id"); // its kind 1 is no float: the branch for zeros is shown
+    CHECK(type("<i;0=d;1=f>") == "id"); // its kind 1 is not a float: the branch for zeros is shown
     CHECK(type("") == "id");
 }
 
@@ -257,7 +257,7 @@ TEST_CASE("a mismatching type is refused with both signatures") {
             Catch::Contains("IDL:RTC/TimedDoubleSeq:1.0") &&
             Catch::Contains("field 1[] is int32 here, double there: ask for widen with convert.reference "
                             "of AdaptorComp, or use a type with that signature"));
-    // No conversion makes one of the other: so none is named.
+    // No conversion turns one into the other, so none is named.
     CHECK_THAT(
         adaptor::check_type(opros_any(std::string()), port, true).error,
         Catch::Contains(

@@ -222,7 +222,7 @@ TEST_CASE("device types are converted to their counterparts and back by default"
         CHECK(image->getPixelByte() == 3);
         REQUIRE(image->getSize() == sizeof pixels);
         CHECK(std::equal(pixels, pixels + sizeof pixels, image->getData()));
-        // As docs/device_types.md has it.
+        // The conversion in docs/device_types.md.
         Wire camera(
             "camera", "IDL:Img/TimedCameraImage:1.0",
             tm + "{data}({captured_time}({sec}u{nsec}u){image}({width}i{height}i{format}e#37{raw_data}ay)"

@@ -169,7 +169,7 @@ void exchange_any_messages(const DeviceType& device, Wire& wire, Random& random)
         if (!damaged && !cut && !device.fields.empty())
             check_fields(device, true, fields_of(device.signature, message),
                          fields_of(device.own, encoded(value)));
-        // What a component may have is sent: also what an RTC's type cannot hold.
+        // Sends everything that a component may have, also values that an RTC's type cannot hold.
         (sender.push(value) ? returned : refused)++;
         wire.received();
     }
@@ -180,7 +180,7 @@ void exchange_any_messages(const DeviceType& device, Wire& wire, Random& random)
     CHECK(returned + refused == arrived);
 }
 
-/// Sends values of the OPRoS type: each arrives with equal numbers, or its status says that it is none.
+/// Sends values of the OPRoS type: each arrives with equal numbers, or its status says that it is not valid.
 template <class T>
 void send_any_values(const DeviceType& device, Wire& wire, Random& random) {
     Sender<T> sender(wire);

@@ -52,7 +52,7 @@ struct Wire {
     std::unique_ptr<opros_any> there_and_back(const T& value, const std::string& convert_in = "",
                                               const std::string& convert_out = "") {
         adaptor::MirrorInPort input(in, own.link.writer("in"), convert_in);
-        opros_any any(value), sample{T()}; // a sample of its own: an image's copies share the pixels
+        opros_any any(value), sample{T()}; // a separate sample, because copies of an image share the pixels
         const bool accepted = input.checkType(sample);
         INFO(input.typeError());
         REQUIRE(accepted);

@@ -83,7 +83,7 @@ struct Receiver {
     MirrorOutPort output;
 };
 
-/// The same in the other direction.
+/// Does the same in the other direction.
 template <class T>
 struct Sender {
     Sender(Wire& wire, const std::string& convert = "")

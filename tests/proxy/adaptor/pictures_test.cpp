@@ -28,7 +28,7 @@ namespace {
 
 const std::string camera_signature = "{tm}({sec}u{nsec}u){width}q{height}q{bpp}q{format}s{fDiv}d{pixels}ay";
 
-/// What a camera RTC sends, but for `bpp`.
+/// A picture as a camera RTC sends it, except for `bpp`.
 struct Camera {
     const char* what;
     std::uint16_t width, height;
@@ -219,7 +219,7 @@ TEST_CASE("a picture that an RTC sends as the component's own structure is refus
 }
 
 TEST_CASE("pictures of Img::TimedCameraImage cross as a port requests: grey, colour and uncompressed") {
-    // As docs/device_types.md has it.
+    // The conversion in docs/device_types.md.
     const std::string to_opros =
         "narrow; refuse data.image.format 3 4; raw: default raw; width: from data.image.width; "
         "height: from data.image.height; "
@@ -231,7 +231,7 @@ TEST_CASE("pictures of Img::TimedCameraImage cross as a port requests: grey, col
               "{tm}({sec}u{nsec}u){data}({captured_time}({sec}u{nsec}u){image}({width}i{height}i{format}e#37{"
               "raw_data}ay){intrinsic}({matrix_element}[5]d{distortion_coefficient}ad){extrinsic}[4][4]d){"
               "error_code}i");
-    // Who says 3 bytes for each pixel is believed only if it is so.
+    // A claim of 3 bytes per pixel is accepted only if it is true.
     Receiver<BelievingImage> receiver(
         wire, computed ? to_opros
                        : "narrow; raw: default raw; width: from data.image.width; "

@@ -23,7 +23,7 @@ namespace {
 
 using Input = InputDataPort<std::vector<double>>;
 
-/// As `tandem shm stats` shows them.
+/// The counters as `tandem shm stats` shows them.
 shm::RingCounters counters_of_reference(const Scene& scene) {
     const auto seen = shm::observe(scene.name);
     REQUIRE(seen);

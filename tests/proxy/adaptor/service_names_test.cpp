@@ -26,7 +26,7 @@ const link::Port greeter_port{link::PortKind::service_provided,
                               "greeter",
                               {{"echo", "s:s"}, {"tell", "s:s"}, {"halt", ":"}, {"level", ">d:"}}};
 
-/// Written by somebody who has never seen Greeter.
+/// A component that was written without knowledge of Greeter.
 class PrinterRequired : public RequiredServicePort {
   public:
     PrinterRequired() {

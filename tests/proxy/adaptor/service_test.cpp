@@ -43,7 +43,7 @@ inline std::string typeName(Place*) { return "Place"; }
 inline void save_this(opros::archive::oarchive& ar, Place& place) { ar << place.x << place.y; }
 inline void load_this(opros::archive::iarchive& ar, Place& place) { ar >> place.x >> place.y; }
 
-/// What `measure` gives back in one value.
+/// The results of `measure` in one value.
 struct Measured {
     int code = 0;
     double value = 0;
@@ -360,7 +360,7 @@ TEST_CASE("the peer calls methods with out arguments, attributes and results of 
 
     CHECK(mirror.serve({"arm", "_set_speed", "d:", encoded(8.0)}).status == CallStatus::ok);
 
-    // The same by ids, which a caller with other types does not have.
+    // The same call by ids, which a caller with other types does not have.
     const auto by_ids = [&](const char* operation, const char* signature,
                             const std::vector<std::byte>& sent) {
         wire::MessageBuffer memory;
@@ -418,7 +418,7 @@ TEST_CASE("a port that provides none of the required operations is refused with 
     Arm arm;
     ArmProvided provided(arm);
     CHECK_THAT(mirror.bindProvided(&provided), Catch::Contains("'wave'") && Catch::Contains("'i:'"));
-    // The peer's calls are told the same, and not that nobody is there yet.
+    // The peer's calls get the same reason, and not the reason that no component is connected yet.
     const auto reply = mirror.serve({"arm", "wave", "d:", {}});
     CHECK(reply.status == CallStatus::no_such_operation);
     CHECK_THAT(reply.text(), Catch::Contains("argument 1 is int32 here, double there"));

@@ -27,7 +27,7 @@ namespace {
 struct Opaque {};
 inline std::string typeName(Opaque*) { return "Opaque"; }
 
-/// A component that does what it is told, and whose ports some RTM type may have.
+/// A component that the test controls, and whose ports some RTM type may have.
 class Motor : public Component {
   public:
     explicit Motor(const std::string& name) : Component(name) {
@@ -118,7 +118,7 @@ struct RtmSide : link::LinkHandler {
         if (report.sequence > newest.sequence) newest = report;
         return {};
     }
-    /// Whether that state is reported last, soon.
+    /// Returns whether that state is soon the last one reported.
     bool sees(const std::string& component, ComponentState state) {
         const auto deadline = std::chrono::steady_clock::now() + 10s;
         while (std::chrono::steady_clock::now() < deadline) {

@@ -137,7 +137,7 @@ inline std::vector<NamedAny> anys_of_everything() {
     };
 }
 
-/// Whether TypeCodes, including all names, and values are the same.
+/// Returns whether TypeCodes, including all names, and values are equal.
 inline bool is_same_any(const CORBA::Any& a, const CORBA::Any& b) {
     const CORBA::TypeCode_var code = a.type(), other = b.type();
     if (!code->equal(other.in()) || !code->equivalent(other.in())) return false;

@@ -414,7 +414,7 @@ TEST_CASE("generic calls report what went wrong") {
     CHECK(system.exception_id == "IDL:omg.org/CORBA/NO_PERMISSION:1.0");
 
     CHECK(call(object, "drive", none, 0).status == Status::bad_arguments);
-    // A text that is no reference, and one that would make the ORB ask another host.
+    // A text that is not a reference, and one that would make the ORB ask another host.
     for (const char* text : {"IOR:00zz", "corbaloc::127.0.0.1:1/Nobody", "IOR:"}) {
         std::vector<std::byte> argument;
         wire::CdrWriter(argument).put_string(text);

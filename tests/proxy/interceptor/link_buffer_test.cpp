@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an RTC writes through a LinkBuffer, and another one reads, message by message in place.
+// An RTC writes through a LinkBuffer, and another one reads, message by message in place.
 #include "proxy/interceptor/data/link_buffer.hpp"
 #include "tests/proxy/interceptor/orb.hpp"
 #include "tests/shm/fixture.hpp"
@@ -35,7 +35,7 @@ struct Channel {
     void send(const Value& value) {
         REQUIRE(sending.writeInPlace(RTC::CdrMarshal<Value>(value)) == RTC::BufferStatus::OK);
     }
-    /// Whether there was a message, and it was a value of that type.
+    /// Returns whether there was a message that is a value of that type.
     template <class Value>
     bool receive(Value& value) {
         RTC::CdrUnmarshal<Value> unmarshal(value);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The RTCs that show OPRoS components, without a peer: the test says what it shares and reports.
+// The RTCs that show OPRoS components, without a peer: the test itself shares and reports.
 #include "proxy/interceptor/factory.hpp"
 #include "proxy/interceptor/opros/opros_rtcs.hpp"
 #include "tests/proxy/link/link_side.hpp"
@@ -39,7 +39,7 @@ struct ShownComponents {
         const auto arguments = link::control::encode(link::control::StateReport{"Tally", state, sequence});
         rtcs.receive_state({"", link::control::state, "", arguments});
     }
-    /// Whether there is an RTC with that port.
+    /// Returns whether an RTC with that port exists.
     bool is_shown(const std::string& port) {
         RTC::RTObject_impl* const rtc = manager.getComponent("Tally");
         if (rtc == nullptr) return false;

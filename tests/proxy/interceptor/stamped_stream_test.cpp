@@ -122,7 +122,7 @@ TEST_CASE("a message that ends early throws, wherever it ends, and nothing behin
     const interceptor::Orb orb;
     const auto whole = bytes_by_orb(example());
     for (std::size_t length = 0; length < whole.size() - head; ++length) {
-        // Of exactly that size, so that a sanitizer sees one byte too many.
+        // A buffer of exactly that size, so that a sanitizer notices one byte too many.
         const std::vector<std::byte> cut(whole.begin() + head,
                                          whole.begin() + static_cast<long>(head + length));
         StampedInStream in(cut, true, 0);

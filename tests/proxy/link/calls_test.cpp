@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How many calls a link carries at once, how long they may be, and what happens beyond.
+// How many calls a link carries at once, how long they may be, and what happens beyond these limits.
 #include "link_side.hpp"
 
 #include "proxy/link/protocol/call_limits.hpp"

@@ -67,7 +67,7 @@ TEST_CASE("the threads of an idle link are not woken, even after work or while t
     // Supervisor, worker, tasks. Each gives itself its name once it runs.
     const std::size_t threads = after == "the peer's departure" ? 3 : 6;
     CHECK(eventually([&] { return count_switches().size() >= threads; }));
-    // What has happened has its consequences for a second, see PeerSupervisor; a loaded machine delays them.
+    // An event has consequences for a second, see PeerSupervisor; a loaded machine delays them.
     CHECK(eventually([] {
         const auto before = count_switches();
         std::this_thread::sleep_for(1500ms); // longer than any period that these threads have had

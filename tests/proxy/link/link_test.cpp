@@ -194,7 +194,7 @@ TEST_CASE("a segment that is truncated while in use takes the link down and a ne
         a->link.call({"p", "o", "", {}}, 10ms);
         CHECK(eventually([&] { return a->downs == 1 && b->downs == 1; }));
         CHECK(eventually([&] { return a->link.is_up() && b->link.is_up(); }));
-        // What was on its way is lost, what comes now arrives, and nothing else does.
+        // Messages that were on their way are lost, new ones arrive, and nothing else does.
         CHECK(eventually([&] { return send(b->link.writer("reference"), 3); }));
         CHECK(eventually([&] { return receive(a->link.reader("reference")) == 3; }));
         CHECK(a->link.call({"p", "o", "", bytes_of("again")}, soon).text() == "again");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a user asks of single ports: the last value for who comes late, no loss, a longest silence.
+// Settings of single ports: the last value for a late peer, no loss, a longest silence.
 #include "tests/proxy/link/link_side.hpp"
 #include "tests/support/membarrier.hpp"
 

@@ -90,7 +90,8 @@ struct Scene {
         });
     }
 
-    /// The same for a consumer without a thread: this thread is in its place. Woken, so that it never waits here.
+    /// Does the same for a consumer without a thread: this thread takes its place. It is woken, so it never
+    /// waits here.
     void take_turn(const void* consumer) {
         do {
             REQUIRE(send("left"));

@@ -301,7 +301,7 @@ TEST_CASE("a sequence takes as many of the sender's elements as its other fields
     for (const auto& [width, height] : {std::pair(4, 4), {-1, -1}, {1 << 30, 1 << 30}})
         CHECK_THAT(refusal(grid_type, to, request, grid(width, height, "", 15)),
                    Contains("'cells' has 15 elements") && Contains("width x height = "));
-    // What is bounded is what is sent.
+    // The bound applies to what is sent.
     const auto bounded = converted(grid_type, "{cells}a#12y", request, grid(4, 3, "", 100));
     CHECK(CdrReader(bounded).get_sequence(1, 1).size() == 12);
 }

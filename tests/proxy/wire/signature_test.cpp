@@ -63,7 +63,7 @@ TEST_CASE("the signature of an any has the ids of its types, which distinguish n
     CHECK(type.children[0].name == "a");
     CHECK(type == parse_any_signature("(i)"));
     CHECK(to_named_signature(type) == "{a}i");
-    // As a message is written: the list of its members.
+    // In the form of a message: the list of its members.
     CHECK(to_any_signature(parse_any_signature("{a}i{b}d")) == "({a}i{b}d)");
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Calls that are cancelled while they wait or run, and that say how far they are.
+// Calls that are cancelled while they wait or run, and calls that report their progress.
 #include "call_fixture.hpp"
 
 #include "shm/call/call_words.hpp"
@@ -21,7 +21,7 @@ CallControl find_control() {
     return {&wishes_of_thread->cancelled, &wishes_of_thread->progress, wishes_of_thread->max_ns};
 }
 
-/// As CallPair, with a client whose calls can be cancelled.
+/// Like CallPair, with a client whose calls can be cancelled.
 struct ControlledPair : Pair {
     explicit ControlledPair(std::uint32_t slots = 2)
         : client(first->add_call_queue("c", {.slots = slots, .max_bytes = 64}), {}, find_control),

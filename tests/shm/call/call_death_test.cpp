@@ -115,7 +115,7 @@ TEST_CASE("a server serves new callers after callers were killed at any moment")
         });
         CHECK(eventually([&] { return runs > round * 17 % 500; }));
         calling.kill_now();
-        // What was submitted completely may still run; then the queue is empty and stays so.
+        // A call that was submitted completely may still run; then the queue is empty and stays so.
         CHECK(eventually([&] { return server.counters().in_use == 0; }));
         const auto counters = server.counters();
         CHECK(counters.taken == counters.answered);

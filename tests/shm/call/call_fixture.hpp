@@ -49,14 +49,14 @@ struct Workers {
     std::vector<std::thread> threads_;
 };
 
-/// A call from a thread of its own; Catch's assertions are for one thread only.
+/// A call from a separate thread; Catch's assertions are for one thread only.
 inline std::future<CallStatus> call_aside(CallClient& client, std::chrono::nanoseconds timeout) {
     return std::async(std::launch::async, [&client, timeout] { return client.call({}, timeout).status; });
 }
 
 inline void echo(IncomingCall& call) { call.reply(CallStatus::ok, call.arguments()); }
 
-/// The number that a call has as its arguments, in decimal; 0 if it has none.
+/// Returns the number that a call has as its arguments, in decimal; 0 if it has none.
 inline std::size_t number_of(const IncomingCall& call) {
     const std::string text = text_of(call.arguments());
     return text.empty() ? 0 : std::stoul(text);

@@ -136,7 +136,7 @@ TEST_CASE("a new calling end withdraws the calls that the last one left behind")
     Pair pair;
     const auto queue = pair.first->add_call_queue("c", {.slots = 2, .max_bytes = 64});
     pair.first->publish();
-    // As if a caller had been in the middle of two calls: one submitted, one taken by a worker.
+    // Pretends that a caller was in the middle of two calls: one submitted, one taken by a worker.
     queue.view.slots[0].request.word.store(call_word(layout::CallState::submitted, 7, 0));
     queue.view.slots[1].request.word.store(call_word(layout::CallState::submitted, 9, 0));
     queue.view.slots[1].work.claim.store(call_word(0U, 9, 0));

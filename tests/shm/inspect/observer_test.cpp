@@ -311,7 +311,7 @@ TEST_CASE("a segment of another user is reported and not opened") {
     CHECK(seen->segment.layout_version == 0);
     CHECK(seen->rings.empty());
 
-    // Shared with a group of ours, it may be looked at.
+    // It may be observed if it is shared with a group of this user.
     REQUIRE(chown(path.c_str(), 12345, getegid()) == 0);
     REQUIRE(chmod(path.c_str(), 0660) == 0);
     CHECK(observe(pair.link.name, 900)->segment.layout_version == layout::layout_version);

@@ -38,7 +38,7 @@ TEST_CASE("a payload longer than a record is written and read in the same place"
     REQUIRE(record);
     CHECK(text_of(record->bytes) == image('i'));
     CHECK(record->stamp_ns == 3);
-    // The same page of the same file: what is changed here shows there.
+    // The same page of the same file: a change here is visible there.
     room[0] = std::byte{'!'};
     CHECK(record->bytes[0] == std::byte{'!'});
     CHECK(ring.writer.counters().bytes_sent == large);
@@ -168,7 +168,7 @@ TEST_CASE("invalid chunk options are refused when the ring is created") {
 TEST_CASE("sequence numbers stay right beyond the 32 bits that a record holds") {
     Pair pair;
     auto handle = pair.first->add_ring("r", {.max_record = 100, .capacity = 512});
-    // As if that many had been sent and overwritten before.
+    // Pretends that this number had been sent and overwritten before.
     constexpr std::uint64_t before = 0x12fffffffc;
     handle.view.shared->published = before;
     handle.view.shared->sent = before;

@@ -44,7 +44,7 @@ TEST_CASE("a file of another user raises no generation, and is neither changed n
     CHECK(second->generation() == 1);
     CHECK(first->peer_state() == PeerState::alive);
     CHECK_FALSE(first->superseded());
-    // As after the death of one side.
+    // The state after the death of one side.
     first.reset();
     first = join(link, Side::first);
     CHECK(first->generation() == 2);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Restart and start-up races: who ends up in which generation.
+// Races of restarts and starts: which side ends up in which generation.
 #include "tests/shm/fixture.hpp"
 
 #include "shm/segment/liveness.hpp"
@@ -189,7 +189,7 @@ TEST_CASE("two sides that restart again and again at the same time always meet")
     Link link;
     std::atomic<int> meetings{0};
     const int rounds = static_cast<int>(stress(100));
-    // Each side joins, waits until the peer is there too, and leaves; a superseded one starts over.
+    // Each side joins, waits until the peer has joined, and leaves; a superseded side starts again.
     const auto run = [&](Side side) {
         for (int met = 0; met < rounds;) {
             auto segment = join(link, side, small(4096));

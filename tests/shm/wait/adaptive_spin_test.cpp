@@ -12,7 +12,8 @@ using namespace std::chrono_literals;
 
 namespace {
 
-/// A clock that goes on by 0.1 us with each look, and sleeps that end with a ring after a time that the test chooses.
+/// A clock that advances by 0.1 us with each reading, and sleeps that end with a ring after a time that the
+/// test chooses.
 struct ScriptedAtomics : tandem::shm::RealAtomics {
     static inline std::uint64_t time_ns = 0, sleep_ns = 0, began_to_sleep_ns = 0;
     static inline tandem::shm::BasicDoorbell<ScriptedAtomics>* bell = nullptr;
@@ -86,6 +87,6 @@ TEST_CASE("an owner polls briefly after a long sleep, and for the full time agai
     for (int i = 0; i < 20; ++i) polled_ns(1'000'000'000);
     CHECK(polled_ns(30'000) < 3'000); // which it would have caught by polling
     CHECK(polled_ns(1'000'000'000) >= 50'000);
-    CHECK(polled_ns(150'000) < 40'000); // halved; a sleep as long as three times the full time is no news
+    CHECK(polled_ns(150'000) < 40'000); // halved; a sleep of three times the full time changes nothing
     CHECK(polled_ns(1'000'000'000) < 40'000);
 }

@@ -83,7 +83,8 @@ TEST_CASE("sleeps without a bound are ended by their memory range, and sleeps el
     });
     std::this_thread::sleep_for(20ms); // most likely they sleep by now
     ended = 1;
-    // Repeated, because the words do not change: a thread may have looked at `ended` before and begin to sleep after.
+    // Repeated, because the words do not change: a thread may have read `ended` before and go to sleep
+    // afterwards.
     CHECK(eventually([&] {
         FutexTimeoutThread::of_process().end_sleeps(std::as_bytes(std::span(words.here)));
         return ended == 9;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The OPRoS component whose instructions are counted: it does one operation per cycle, between two marks.
+// The OPRoS component whose instructions are counted: it performs one operation per cycle, between two marks.
 #include <OPRoSInclude.h>
 #include <ProvidedMethod.h>
 #include <ProvidedServicePort.h>
@@ -48,7 +48,7 @@ class DoublerRequired : public RequiredServicePort {
 
 } // namespace
 
-/// Its property `role` says what it does: send, receive, call; or nothing but to answer calls.
+/// Its property `role` selects what it does: send, receive, call, or only answer calls.
 class BenchPath : public Component, public IDoubler {
   public:
     BenchPath() {
@@ -92,7 +92,7 @@ class BenchPath : public Component, public IDoubler {
         const bool received = pop_values();
         mark(received ? PathMark::receive_end : PathMark::nothing);
     }
-    /// As components receive: pop, read in place, delete. Returns false if no newer message is there.
+    /// Receives as components do: pops, reads in place, deletes. Returns false if there is no newer message.
     bool pop_values() {
         const std::unique_ptr<opros_any> any(in_.pop());
         if (!any) return false;

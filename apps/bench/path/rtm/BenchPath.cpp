@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The RT-Component whose instructions are counted: it does one operation per cycle, between two marks.
+// The RT-Component whose instructions are counted: it performs one operation per cycle, between two marks.
 #include "BenchEchoSkel.h"
 
 #include <rtm/CorbaPort.h>
@@ -30,7 +30,7 @@ class Echo : public POA_Bench::Echo, public PortableServer::RefCountServantBase 
 
 } // namespace
 
-/// Its property `role` says what it does: send, receive, call; or nothing but to answer calls.
+/// Its property `role` selects what it does: send, receive, call, or only answer calls.
 class BenchPath : public RTC::DataFlowComponentBase {
   public:
     explicit BenchPath(RTC::Manager* manager) : RTC::DataFlowComponentBase(manager) {}
@@ -65,7 +65,7 @@ class BenchPath : public RTC::DataFlowComponentBase {
         const bool received = read_values();
         mark(received ? PathMark::receive_end : PathMark::nothing);
     }
-    /// Two calls, as RTCs are written. Returns false if no newer message is there.
+    /// Makes two calls, as RTCs are written. Returns false if there is no newer message.
     bool read_values() {
         if (!in_.isNew()) return false;
         in_.read();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The OPRoS component of the calls across the bridge. It answers calls, and with the property `file` it makes and times them.
+// The OPRoS component of the calls across the bridge. It answers calls. With the property `file` it also
+// makes and times them.
 #include <OPRoSInclude.h>
 #include <ProvidedMethod.h>
 #include <ProvidedServicePort.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The RT-Component of the calls across the bridge. It answers calls, and with the property `file` it makes and times them.
+// The RT-Component of the calls across the bridge. It answers calls. With the property `file` it also makes
+// and times them.
 #include "BenchBridgeSkel.h"
 
 #include <rtm/CorbaPort.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The OPRoS component of the bridge's measurement: sends pings and times the answers (ping.hpp).
+// The OPRoS component that measures the bridge: sends pings and times the answers (ping.hpp).
 #include <OPRoSInclude.h>
 
 #include "apps/bench/tandem/bridge/messages.hpp"
@@ -12,7 +12,7 @@ using namespace tandem::bench;
 
 namespace {
 
-/// A structure of a user's own, as generated code writes one.
+/// A structure of a user, in the form of generated code.
 struct Note {
     std::string text;
     std::vector<double> values;
@@ -25,8 +25,9 @@ struct Note {
 };
 std::string typeName(Note*) { return "Note"; }
 
-// Write a ping into a message of each type, and read one. Return false if the message is none. Its time of sending is put in last, as
-// element `sent_at`, and `at` is taken first; but the filling and reading of a picture belong to what is measured.
+// Write a ping into a message of each type, and read one. Return false if the message is not a ping. The time
+// of sending is written last, as element `sent_at`, and `at` is read first. The filling and reading of a
+// picture belong to the measured time.
 void put(std::vector<double>& values, const PingMessage& ping, std::size_t sent_at) {
     values.assign(ping.begin(), ping.end());
     values[sent_at] = as_double(ticks());
@@ -56,7 +57,7 @@ bool get(const std::vector<unsigned char>& image, PingMessage& ping, std::uint64
     return true;
 }
 
-/// The two ports, for whichever type the case has.
+/// The two ports, for the type of the case.
 class Ports {
   public:
     virtual ~Ports() = default;
@@ -79,13 +80,13 @@ class PortsOf final : public Ports {
     void take_answers(PingClient& client) override { client.take_answers(*this); }
     void take_answers_over_floor(PingClient& client) override { client.take_answers_over_floor(*this); }
 
-    // The Port that ping.hpp asks for.
+    // The Port that ping.hpp requires.
     void send(const PingMessage& ping, std::size_t sent_at) {
         put(buffer_, ping, sent_at);
         ping_.push(buffer_);
     }
     bool receive(PingMessage& ping, std::uint64_t& at) {
-        // Popped by value and read in place: no copy of the message.
+        // Pops by value and reads in place, without a copy of the message.
         const std::unique_ptr<opros_any> any(pong_.pop());
         if (!any) return false;
         const auto* message = pong_.getContentPointer(*any);
@@ -108,7 +109,7 @@ std::unique_ptr<Ports> ports_for(const std::string& message) {
 
 class BenchPing : public Component {
   public:
-    // Polls for the most of each period: a latency, not the period, is to be measured.
+    // Polls for most of each period, so that the latency is measured and not the period.
     ReturnType onExecute() override {
         if (event_driven_)
             ports_->take_answers(*client_);
@@ -134,7 +135,7 @@ class BenchPing : public Component {
         if (!origin.empty()) client_->measure_tails(std::stol(origin));
         return OPROS_SUCCESS;
     }
-    // AdaptorComp has started before: the RTC is there to answer.
+    // AdaptorComp has started before, so the RTC can answer.
     ReturnType onStart() override {
         if (event_driven_ && paired_)
             floor_thread_ = std::jthread([this] { ports_->take_answers_over_floor(*client_); });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The RT-Component of the bridge's measurement: answers each ping at once (ping.hpp).
+// The RT-Component that measures the bridge: answers each ping at once (ping.hpp).
 #include "BenchBridgeSkel.h"
 
 #include <rtm/DataFlowComponentBase.h>
@@ -21,8 +21,9 @@ using namespace tandem::bench;
 
 namespace {
 
-// Write a ping into a message of each type, and read one. Return false if the message is none. Its time of sending is put in last, as
-// element `sent_at`, and `at` is taken first; but the filling and reading of a picture belong to what is measured.
+// Write a ping into a message of each type, and read one. Return false if the message is not a ping. The time
+// of sending is written last, as element `sent_at`, and `at` is read first. The filling and reading of a
+// picture belong to the measured time.
 template <class Sequence>
 void put_values(Sequence& values, const PingMessage& ping, std::size_t sent_at) {
     values.length(ping.size());
@@ -61,7 +62,7 @@ bool get(const RTC::TimedOctetSeq& image, PingMessage& ping, std::uint64_t& at) 
     return true;
 }
 
-/// Calls back with each message that comes.
+/// Calls back with each message.
 template <class Message, class Use>
 class ArrivalListener final : public RTC::ConnectorDataListenerT<Message> {
   public:
@@ -76,7 +77,7 @@ class ArrivalListener final : public RTC::ConnectorDataListenerT<Message> {
     Use use_;
 };
 
-/// The two ports, for whichever type the case has.
+/// The two ports, for the type of the case.
 class Ports {
   public:
     virtual ~Ports() = default;
@@ -92,7 +93,7 @@ class PortsOf final : public Ports {
         rtc.addInPort("ping", in_);
         rtc.addOutPort("pong", out_);
     }
-    /// A listener answers, in the thread that is woken by the message.
+    /// A listener answers, in the thread that the message wakes.
     void answer_when_woken(PingServer& server) override {
         const auto answer = [this, &server](const Message& message) {
             PingMessage ping;
@@ -104,7 +105,7 @@ class PortsOf final : public Ports {
     }
     void answer_for_a_slice(PingServer& server) override { server.answer_for_a_slice(*this); }
 
-    // The Port that ping.hpp asks for.
+    // The Port that ping.hpp requires.
     void send(const PingMessage& ping, std::size_t sent_at) {
         put(pong_, ping, sent_at);
         out_.write();
@@ -161,7 +162,7 @@ class BenchPong : public RTC::DataFlowComponentBase {
     std::jthread floor_thread_;
 };
 
-/// Sixteen ports through which nothing goes.
+/// Sixteen unused ports.
 class BenchIdle : public RTC::DataFlowComponentBase {
   public:
     explicit BenchIdle(RTC::Manager* manager) : RTC::DataFlowComponentBase(manager) {}
@@ -181,7 +182,7 @@ class BenchIdle : public RTC::DataFlowComponentBase {
 };
 
 extern "C" void BenchPongInit(RTC::Manager* manager) {
-    // Manager::load() calls this function, whose name is that of the library with "Init" behind it.
+    // Manager::load() calls this function, whose name is the name of the library followed by "Init".
     coil::Properties profile;
     profile.setProperty("implementation_id", "BenchPong");
     profile.setProperty("type_name", "BenchPong");

@@ -22,14 +22,14 @@ struct CallSettings {
         return settings;
     }
 
-    std::string file = {};  ///< for the times; empty: it answers
+    std::string file = {};  ///< for the times; empty: the component only answers
     std::string floor = {}; ///< of a paired case
-    bool sleeps = false;    ///< both sides wait asleep
+    bool sleeps = false;    ///< both sides sleep while they wait
     std::size_t samples = 0, warm_up = 0, window = 0;
     double seconds = 0;
 };
 
-/// [tick-thread] What the callers of both models share: times `double add(double, double)` of the other side.
+/// [tick-thread] The callers of both models: times `double add(double, double)` of the other side.
 class CallTimer {
   public:
     explicit CallTimer(const CallSettings& settings)
@@ -41,7 +41,7 @@ class CallTimer {
         sleeping_floor_ = std::make_unique<FloorPort<Wake::blocking>>(window_->floor());
     }
 
-    /// The caller's onExecute(). add(a, b) returns a sum, or nothing while nobody answers yet.
+    /// Called by the caller's onExecute(). add(a, b) returns a sum, or nothing if no component answers yet.
     template <class Add>
     void call_for_a_slice(Add&& add) {
         const std::uint64_t end = ticks() + to_ticks(slice_ns);
@@ -74,7 +74,7 @@ class CallTimer {
         if (const auto ratio = window_->add(ns)) samples_.add(*ratio, now);
         if (!samples_.done()) return;
         window_->floor().end();
-        if (sleeps_) sleeping_floor_->send({}); // wakes the thread that answers
+        if (sleeps_) sleeping_floor_->send({}); // wakes the answering thread
     }
 
     Samples samples_;
@@ -85,19 +85,19 @@ class CallTimer {
     std::unique_ptr<FloorPort<Wake::blocking>> sleeping_floor_;
 };
 
-/// What the components of both models share that answer in a paired case: a thread that adds over the floor. It ends when nothing
-/// more is measured.
+/// The answering components of both models in a paired case: a thread that adds over the floor. It ends when
+/// the measurement ends.
 class FloorAdder {
   public:
     explicit FloorAdder(const CallSettings& settings)
         : floor_(settings.floor, Floor::Role::answers),
           thread_([this, sleeps = settings.sleeps] { sleeps ? add_asleep() : add_polling(); }) {}
 
-    /// [any-thread] To be called for each call that comes through the bridge.
+    /// [any-thread] Call it for each call that arrives through the bridge.
     void note_call() { floor_.note_switches_on_bridge(); }
 
   private:
-    // Not polling beside the worker that takes the bridge's calls.
+    // Does not poll, because the worker that executes the bridge's calls needs the core.
     void add_polling() {
         FloorPort<Wake::spin> port(floor_);
         PingMessage message;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The floor of the bridge's paired cases: two minimal rings between the components that the bridge joins, in a file that the
-// bench makes and both map. The component that measures says which road is in use, the bridge or the rings, for half a window each; the other one follows.
+// The floor of the bridge's paired cases: two minimal rings between the components that the bridge joins, in
+// a file that the bench creates and both components map. The measuring component selects the path for each
+// half of a window, the bridge or the rings; the other component follows.
 #pragma once
 #include "apps/bench/baseline/index_ring.hpp"
 #include "apps/bench/machine/core_switches.hpp"
@@ -26,7 +27,7 @@ class Floor {
     enum class Role { measures, answers };
     using Ring = IndexRing<sizeof(PingMessage), 64, Wake::spin>; // asleep it has the same memory
     using PictureRing = IndexRing<image_bytes, 4, Wake::spin>;
-    /// Of the file of a floor whose rings hold pictures, or eight doubles.
+    /// Size of the file of a floor whose rings hold pictures, or eight doubles.
     static constexpr std::size_t file_bytes(bool pictures) {
         const std::size_t ring = pictures ? PictureRing::memory_bytes : Ring::memory_bytes;
         return page + 2 * ((ring + page - 1) / page * page);
@@ -38,27 +39,28 @@ class Floor {
                                nullptr, MAP_POPULATE) {}
 
     bool holds_pictures() const { return region_.get_size() == file_bytes(true); }
-    /// The ring that this side writes, or the one that it reads.
+    /// Returns the ring that this side writes, or the one that it reads.
     std::byte* ring(bool written) const {
         const bool first = written == (role_ == Role::measures);
         return static_cast<std::byte*>(region_.get_address()) + page +
                (first ? 0 : (region_.get_size() - page) / 2);
     }
-    /// Adds how often this thread has lost its core since it last said so.
+    /// Adds how often this thread has lost its core since its last report.
     void note_switches() {
         const std::uint64_t now = thread_switches();
         words().switches.fetch_add(now - std::exchange(noted_switches(), now), std::memory_order_acq_rel);
     }
 
-    /// The same, of threads that sleep for one road only and take turns: what happened to this one before the half of the window
-    /// in which it says so for the first time does not count, such as that the thread of the other road woke on its core.
+    /// Does the same for threads that sleep for one path only and take turns. Switches before the half of the
+    /// window in which the thread first reports do not count, for example a wake-up of the other path's
+    /// thread on its core.
     void note_switches_of_half() {
         if (!forget_earlier_switches()) note_switches();
     }
 
-    /// [measures] The other road, from now on.
+    /// [measures] Changes to the other path.
     void change_road() { store_half(half() + 1); }
-    /// [measures] Nothing more is measured.
+    /// [measures] Ends the measurement.
     void end() { store_half(no_half); }
     /// [measures] Adds the time of a message over the rings, in a window that counts.
     void add_time(double ns) {
@@ -67,7 +69,7 @@ class Floor {
         words().ns[count].store(ns, std::memory_order_relaxed);
         words().times.store(count + 1, std::memory_order_release);
     }
-    /// These times, of which the first 300 are kept.
+    /// Returns these times; only the first 300 are kept.
     std::vector<double> times() const {
         const std::uint64_t count =
             std::min<std::uint64_t>(words().times.load(std::memory_order_acquire), max_times);
@@ -76,18 +78,19 @@ class Floor {
             all.push_back(words().ns[i].load(std::memory_order_relaxed));
         return all;
     }
-    /// [measures] How often threads of both sides have lost their cores, as they have said.
+    /// [measures] Returns how often threads of both sides have lost their cores, as they have reported.
     std::uint64_t switches() const { return words().switches.load(std::memory_order_acquire); }
 
-    /// [answers] Whether the rings are in use. To be asked for each message: with a change of roads it notes this thread's switches.
+    /// [answers] Returns whether the rings are in use. Call it for each message: when the path changes, it
+    /// records this thread's switches.
     bool in_use() {
         thread_local std::uint32_t seen = 0;
         const std::uint32_t now = half();
         if (now != std::exchange(seen, now)) note_switches();
         return now % 2 != 0;
     }
-    /// [answers] The same, of a thread that polls for the bridge only, with each of its messages. It notes now and then, since that
-    /// takes as long as a message.
+    /// [answers] Does the same for a thread that polls only for the bridge. Call it for each message. It
+    /// records the switches only now and then, because recording takes as long as a message.
     void note_switches_on_bridge() {
         thread_local std::uint32_t messages = 0;
         if (!forget_earlier_switches() && ++messages % 64 == 0) note_switches();
@@ -115,7 +118,7 @@ class Floor {
         words().half.store(half, std::memory_order_release);
         syscall(SYS_futex, &words().half, FUTEX_WAKE, INT_MAX, nullptr, nullptr, 0);
     }
-    /// Returns true in the first call of each half, and then forgets this thread's earlier switches.
+    /// Returns true in the first call of each half, and then discards this thread's earlier switches.
     bool forget_earlier_switches() {
         thread_local std::uint32_t seen = 0;
         const std::uint32_t now = half();
@@ -133,8 +136,8 @@ class Floor {
     ipc::mapped_region region_;
 };
 
-/// [one thread at a time] A pair of minimal rings as the Port that ping.hpp asks for. Like the components' own loops, it polls between
-/// two readings of the clock, so that the two roads differ by the road only.
+/// [one thread at a time] A pair of minimal rings as the Port that ping.hpp requires. Like the components'
+/// own loops, it polls between two readings of the clock, so that the two paths are the only difference.
 template <Wake wake>
 class FloorPort {
   public:
@@ -144,7 +147,7 @@ class FloorPort {
         std::memcpy(out_.claim(), message.data(), sizeof message);
         out_.publish();
     }
-    /// The time of sending becomes that element.
+    /// Writes the time of sending into that element.
     void send(PingMessage message, std::size_t sent_at) {
         message[sent_at] = as_double(ticks());
         send(message);
@@ -169,8 +172,8 @@ class FloorPort {
     IndexRing<sizeof(PingMessage), 64, wake> out_, in_;
 };
 
-/// [one thread at a time] The same for pictures, each side of which has one of its own: filled, copied into the ring and out of it,
-/// and read, all within the measured time.
+/// [one thread at a time] The Port for pictures. Each side has a separate picture: it is filled, copied into
+/// the ring and out of it, and read, all within the measured time.
 class PictureFloorPort {
   public:
     explicit PictureFloorPort(const Floor& floor)

@@ -11,17 +11,17 @@
 
 namespace tandem::bench {
 
-/// [0] the sequence number; [1] BenchPing's clock at sending, [2] BenchPong's at receiving, [3] BenchPong's at
-/// sending, each as the bits of a tick count; [4] not 0: from now on BenchPong sends once in each of its ticks; [5]
-/// milliseconds that it polls from then on before it gives its thread back; [6] of a case of tails: by how many ns the tick was
-/// late that sends it; the rest is payload.
+/// [0] the sequence number; [1] BenchPing's clock at sending, [2] BenchPong's at receiving, [3] BenchPong's
+/// at sending, each as the bits of a tick count; [4] not 0: from now on BenchPong sends once in each of its
+/// ticks; [5] milliseconds that BenchPong then polls before it returns its thread; [6] in a case of tails:
+/// the lateness of the tick that sends the message, in ns; the rest is payload.
 using PingMessage = std::array<double, 8>;
 constexpr std::size_t ping_sent_at = 1, pong_sent_at = 3; ///< its elements
 
 inline double as_double(std::uint64_t bits) { return std::bit_cast<double>(bits); }
 inline std::uint64_t as_bits(double value) { return std::bit_cast<std::uint64_t>(value); }
 
-/// How long one onExecute() polls: the host gets its thread back in between, and can stop the component.
+/// How long one onExecute() polls. Between two, the host has its thread and can stop the component.
 constexpr double slice_ns = 20e6;
 
 /// The text of a message of the case `note`: too long for the small-string buffer of std::string.
@@ -30,7 +30,7 @@ constexpr const char* note_text = "a pose of the base, in metres and radians";
 /// Bytes of the picture of the case `image`.
 constexpr std::size_t image_bytes = std::size_t{1} << 20U;
 
-/// The message, and behind it its number in all words. `memory`: image_bytes, aligned to 8.
+/// The message, followed by its number in all words. `memory`: image_bytes, aligned to 8.
 inline void fill_image(void* memory, const PingMessage& message) {
     std::memcpy(memory, message.data(), sizeof message);
     fill_message(static_cast<std::byte*>(memory) + sizeof message, image_bytes - sizeof message,

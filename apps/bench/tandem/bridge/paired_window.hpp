@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The windows of a paired case, in the component that measures: some messages through the bridge, then as many over the floor,
-// and the ratio of their medians.
+// The windows of a paired case, in the measuring component: a number of messages through the bridge, then the
+// same number over the floor, and the ratio of their medians.
 #pragma once
 #include "apps/bench/tandem/bridge/floor.hpp"
 
@@ -12,20 +12,21 @@ namespace tandem::bench {
 /// [one thread at a time]
 class PairedWindow {
   public:
-    /// `messages`: of each half that count.
+    /// `messages`: number of messages of each half that count.
     PairedWindow(const std::string& floor_file, std::size_t messages)
         : floor_(floor_file, Floor::Role::measures), messages_(messages) {
         for (auto& half : halves_) half.reserve(messages_); // no allocation beside a message
     }
 
     Floor& floor() { return floor_; }
-    /// Whether the next message goes over the floor.
+    /// Returns whether the next message goes over the floor.
     bool on_floor() const { return on_floor_; }
 
     bool begins_half() const { return taken_ == 0; }
 
-    /// The time of a message over the road that is in use. With the first one of each window, the ratio of the window before: not a
-    /// number if one of the threads had lost its core. The first message of each half finds its road cold and does not count.
+    /// Adds the time of a message over the path in use. With the first message of each window, returns the
+    /// ratio of the previous window: not a number if one of the threads had lost its core. The first message
+    /// of each half finds its path cold and does not count.
     std::optional<double> add(double ns) {
         if (taken_++ == 0) return on_floor_ ? std::nullopt : begin_window();
         half().push_back(ns);
@@ -39,7 +40,8 @@ class PairedWindow {
 
   private:
     std::vector<double>& half() { return halves_[on_floor_ ? 1 : 0]; }
-    /// The peer has answered over the bridge again: it has said what it lost over the floor.
+    /// Call it when the peer has answered over the bridge again: it has then reported the switches of its
+    /// floor thread.
     std::optional<double> begin_window() {
         floor_.note_switches();
         const std::uint64_t switches = floor_.switches();

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What BenchPing (OPRoS) and BenchPong (RTM) share: eight doubles go to BenchPong and come back, by themselves or in a longer
-// message (messages.hpp), each side polls its port or is woken, and the message carries the clock's readings at sending and
-// receiving. Both processes read the same clock of the machine, so that each direction is measured on its own. In a paired case
-// the same threads exchange the same messages over the floor (floor.hpp) as well, in alternation; only those that sleep over it
-// are threads of their own.
+// The common parts of BenchPing (OPRoS) and BenchPong (RTM). Eight doubles go to BenchPong and come back,
+// alone or in a longer message (messages.hpp). Each side polls its port or is woken. The message carries the
+// clock's readings at sending and receiving. Both processes read the same clock of the machine, so each
+// direction is measured separately. In a paired case the same threads also exchange the same messages over
+// the floor (floor.hpp), in alternation; only the threads that sleep over the floor are additional ones.
 #pragma once
 #include "apps/bench/harness/tick_record.hpp"
 #include "apps/bench/tandem/bridge/paired_window.hpp"
@@ -16,20 +16,22 @@
 
 namespace tandem::bench {
 
-/// How long an event-driven sender waits, awake, so that its receiver has gone to sleep: the link polls for 50 us before.
+/// How long an event-driven sender waits, awake, so that its receiver has gone to sleep: before that, the
+/// link polls for 50 us.
 inline void wait_until_receiver_sleeps() {
     for (const std::uint64_t end = ticks() + to_ticks(200e3); ticks() < end;) {
     }
 }
 
-/// After each message of a case of tails, one of which comes each millisecond: who polls without end under SCHED_FIFO is stopped by
-/// the kernel for 50 ms of each second (sched_rt_runtime_us), which would count as the bridge's tail.
+/// The pause after each message of a case of tails, which sends one message per millisecond. The kernel stops
+/// a thread that polls without end under SCHED_FIFO for 50 ms of each second (sched_rt_runtime_us), which
+/// would count as the bridge's tail.
 inline void leave_core() { std::this_thread::sleep_for(std::chrono::microseconds(200)); }
 
-/// Of a case of tails, whose ticks come each millisecond.
+/// The period of a case of tails.
 constexpr std::int64_t tail_period_ns = 1'000'000;
 
-/// [tick-thread] By how many ns this tick is late; 0 if it is an extra one.
+/// [tick-thread] Returns the lateness of this tick in ns; 0 for an additional tick.
 inline double lateness_of_this_tick(TickLateness& lateness) {
     timespec now{};
     clock_gettime(CLOCK_MONOTONIC, &now);
@@ -37,19 +39,20 @@ inline double lateness_of_this_tick(TickLateness& lateness) {
         std::max<std::int64_t>(0, lateness.of_tick(now.tv_sec * 1'000'000'000 + now.tv_nsec)));
 }
 
-/// [one thread at a time] BenchPong's side. Port: bool receive(PingMessage&, std::uint64_t& at), which says
-/// when, and void send(const PingMessage&, std::size_t sent_at), which puts the time into that element.
+/// [one thread at a time] BenchPong's side. Port: bool receive(PingMessage&, std::uint64_t& at), where `at`
+/// gets the time of receiving, and void send(const PingMessage&, std::size_t sent_at), which writes the time
+/// of sending into that element.
 class PingServer {
   public:
-    /// The case is paired.
+    /// Makes the case a paired one.
     void pair(const std::string& floor_file) {
         floor_ = std::make_unique<Floor>(floor_file, Floor::Role::answers);
         polled_floor_ = std::make_unique<PolledFloor>(*floor_);
     }
-    /// Of a case of tails: its messages say how late they are sent.
+    /// Makes the case one of tails: its messages carry the lateness of their sending.
     void tell_lateness(std::int64_t origin_ns) { lateness_.emplace(tail_period_ns, origin_ns); }
 
-    /// BenchPong's onExecute().
+    /// Called by BenchPong's onExecute().
     template <class Port>
     void answer_for_a_slice(Port& port) {
         if (sends_in_each_tick_) return on_road(port, [this](auto& road) { this->send_again(road); });
@@ -57,7 +60,7 @@ class PingServer {
         for (std::uint64_t now = ticks(); now < end && !sends_in_each_tick_; now = ticks())
             on_road(port, [&](auto& road) { answer_if_any(road, now, end); });
     }
-    /// Of a BenchPong that a listener wakes: answers the ping that has come.
+    /// For a BenchPong that a listener wakes: answers the ping that has arrived.
     template <class Port>
     void answer(Port& port, PingMessage message, std::uint64_t received_at) {
         message[2] = as_double(received_at);
@@ -65,7 +68,7 @@ class PingServer {
         wait_until_receiver_sleeps();
         port.send(message, pong_sent_at);
     }
-    /// The thread that sleeps over the floor, until nothing more is measured.
+    /// The thread that sleeps over the floor until the measurement ends.
     void answer_over_floor() {
         FloorPort<Wake::blocking> port(*floor_);
         for (PingMessage message;;) {
@@ -108,34 +111,37 @@ class PingServer {
     std::optional<TickLateness> lateness_;
 };
 
-/// [one thread at a time] BenchPing's measurement: it sends pings until the link is up, warms up, and measures one direction. Cold,
-/// the sender of that direction sends one message in each of its ticks, as components do, and the receiver polls meanwhile.
+/// [one thread at a time] BenchPing's side, which measures: it sends pings until the link is up, warms up,
+/// and measures one direction. In cold cases, the sender of that direction sends one message in each of its
+/// ticks, as components do, and the receiver polls.
 class PingClient {
   public:
     PingClient(Samples samples, bool measures_ping, bool cold)
         : samples_(std::move(samples)), measures_ping_(measures_ping), cold_(cold) {}
 
-    /// The case is paired: its samples are the ratios of windows, of so many messages each way.
+    /// Makes the case a paired one: its samples are ratios of windows of `messages` messages each way.
     void pair(const std::string& floor_file, std::size_t messages) {
         window_ = std::make_unique<PairedWindow>(floor_file, messages);
         polled_floor_ = std::make_unique<PolledFloor>(window_->floor());
         sleeping_floor_ = std::make_unique<FloorPort<Wake::blocking>>(window_->floor());
     }
 
-    /// The paired case is one of tails: its samples are times from when the sender's tick was due, through the bridge to the
-    /// receiver, and those over the floor, which are an empty loop's on both cores, with a minus in front.
+    /// Makes the paired case one of tails. Its samples are times from when the sender's tick was due until
+    /// the receiver has the message. Times over the floor, where both cores run an empty loop, have a minus
+    /// sign.
     void measure_tails(std::int64_t origin_ns) { lateness_.emplace(tail_period_ns, origin_ns); }
 
-    /// BenchPing's onExecute().
+    /// Called by BenchPing's onExecute().
     template <class Port>
     void ping_for_a_slice(Port& port) {
         const std::uint64_t end = ticks() + to_ticks(cold_ && !measures_ping_ ? 10 * slice_ns : slice_ns);
-        // No answer within the slice: the next one sends a new ping. Cold, the next tick does in any case.
+        // No answer in this slice: the next one sends a new ping. In cold cases, the next tick always does.
         while (!samples_.done() && ticks() < end && ping_on_road(port, end) && !(cold_ && measures_ping_)) {
         }
     }
 
-    /// Of a BenchPing that is woken by what comes: the first ping, in onStart(), and the next one after each answer.
+    /// For a BenchPing that messages wake: sends the first ping in onStart(), and the next one after each
+    /// answer.
     template <class Port>
     void send_ping(Port& port) {
         PingMessage message{};
@@ -152,8 +158,8 @@ class PingClient {
         std::uint64_t at = 0;
         while (port.receive(reply, at)) take_answer(port, reply, at);
     }
-    /// The thread that sleeps over the floor, until nothing more is measured. Never two messages are under way: this thread and
-    /// the one that the bridge wakes take turns.
+    /// The thread that sleeps over the floor until the measurement ends. At most one message is under way:
+    /// this thread and the one that the bridge wakes take turns.
     template <class Port>
     void take_answers_over_floor(Port& port) {
         for (PingMessage reply;;) {
@@ -205,14 +211,14 @@ class PingClient {
         if (!window_) return samples_.add(ns, now);
         if (lateness_) {
             if (!window_->begins_half()) samples_.add(on_floor() ? -(reply[6] + ns) : reply[6] + ns, now);
-            window_->add(ns); // for the change of roads
+            window_->add(ns); // for the change of paths
         } else if (const auto ratio = window_->add(ns))
             samples_.add(*ratio, now);
         if (samples_.done()) window_->floor().end();
     }
 
     Samples samples_;
-    bool measures_ping_; // otherwise the way back
+    bool measures_ping_; // otherwise the reply
     bool cold_, answered_ = false;
     std::uint64_t sequence_ = 0;
     std::optional<TickLateness> lateness_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The times that a component of the bridge's cases has measured, and how they come to the bench.
+// The times that a component of the bridge's cases has measured, and how they reach the bench.
 #pragma once
 #include "apps/bench/machine/clock.hpp"
 
@@ -10,13 +10,13 @@
 
 namespace tandem::bench {
 
-/// [one thread] Times in ns, written into a file as doubles when there are `samples` of them or `seconds` have passed; the
-/// first `warm_up` ones are left out.
+/// [one thread] Times in ns, written to a file as doubles when there are `samples` of them or `seconds` have
+/// passed. The first `warm_up` times are left out.
 class Samples {
   public:
     Samples(std::string file, std::size_t samples, double seconds, std::size_t warm_up)
         : file_(std::move(file)), samples_(samples), seconds_(seconds), warm_up_(warm_up) {
-        times_.reserve(warm_up_ + samples_); // none of the times shows an allocation
+        times_.reserve(warm_up_ + samples_); // no allocation falls into a measured time
     }
 
     /// `now`: the clock at the end of this one, in ticks.
@@ -35,7 +35,7 @@ class Samples {
         std::ofstream(file_ + ".part", std::ios::binary)
             .write(reinterpret_cast<const char*>(times_.data() + warm_up_),
                    static_cast<std::streamsize>((times_.size() - warm_up_) * sizeof(double)));
-        std::rename((file_ + ".part").c_str(), file_.c_str()); // the reader finds the whole file or none
+        std::rename((file_ + ".part").c_str(), file_.c_str()); // the reader finds the complete file or none
     }
 
     std::string file_;

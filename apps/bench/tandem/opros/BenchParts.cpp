@@ -25,7 +25,7 @@ class IDoubler {
     virtual double twice(double value) = 0;
 };
 
-// The two classes below are written as OPRoS's generators write service ports: a component's own code.
+// The two classes below are written as OPRoS's generators write service ports: as a component's own code.
 /// The provided side: calls go to the owner.
 class DoublerProvided : public ProvidedServicePort, public IDoubler {
   public:
@@ -40,7 +40,7 @@ class DoublerProvided : public ProvidedServicePort, public IDoubler {
     ProvidedMethod<double>* twice_;
 };
 
-/// The required side: calls go to whatever service port is connected.
+/// The required side: calls go to the connected service port.
 class DoublerRequired : public RequiredServicePort {
   public:
     DoublerRequired() {

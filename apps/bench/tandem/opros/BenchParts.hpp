@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The OPRoS component of the engine's cases, as the bench drives it: each function uses one of its ports. Two
-// instances, From and To, are connected; the calls go to From, the values arrive in To.
+// instances, From and To, are connected; the bench calls From, and the values arrive in To.
 #pragma once
 
 #include "apps/bench/harness/tick_record.hpp"
@@ -10,17 +10,17 @@
 class BenchParts {
   public:
     virtual ~BenchParts() {}
-    /// Through an output data port each.
+    /// Send through an output data port each.
     virtual void push(double value) = 0;
     virtual void push(const std::vector<double>& values) = 0;
     /// Calls the peer's service, which returns twice the value.
     virtual double call(double value) = 0;
-    /// Through an event port; the engine calls the peer's onEvent() in another thread.
+    /// Sends through an event port; the engine calls the peer's onEvent() in another thread.
     virtual void send_event(double value) = 0;
-    /// [any-thread] The value of the last event that onEvent() was called with.
+    /// [any-thread] Returns the value of the last event that onEvent() received.
     virtual double last_event() const = 0;
-    /// Takes the oldest value out of the input port; -1 when there is none.
+    /// Takes the oldest value out of the input port; returns -1 if there is none.
     virtual double pop_value() = 0;
-    /// [while the component does not run] What its onExecute() has recorded.
+    /// [while the component does not run] Returns what its onExecute() has recorded.
     virtual const tandem::bench::TickRecord& tick_record() const = 0;
 };

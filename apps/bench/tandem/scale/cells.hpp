@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the cells of one host share: the settings that the bench passes, and the samples that it reads.
+// The common parts of the cells of one host: the settings that the bench passes, and the samples that it
+// reads.
 #pragma once
 
 #include "host/rt/periodic_tick.hpp"
@@ -33,11 +34,12 @@ class Cells {
         clock_gettime(CLOCK_MONOTONIC, &now);
         return (now.tv_sec * 1'000'000'000 + now.tv_nsec - rt::grid_origin.count()) % period_ns_;
     }
-    /// The first cycle of a cell. The file `started` says that all have begun.
+    /// Reports the first cycle of a cell. When all cells have begun, creates the file `started`.
     void begin() {
         if (++begun_ == count_) publish({}, "started");
     }
-    /// A cell has stopped. The file `samples` has the lateness of all cycles, in ns.
+    /// Reports that a cell has stopped. After the last one, writes the lateness of all cycles, in ns, to the
+    /// file `samples`.
     void end(const std::vector<double>& lateness) {
         const std::lock_guard lock(mutex_);
         samples_.insert(samples_.end(), lateness.begin(), lateness.end());
@@ -71,7 +73,7 @@ class Cells {
 class CellRecord {
   public:
     CellRecord() { lateness_.reserve(most); }
-    /// The first cycle is not that of a tick.
+    /// The first cycle does not belong to a tick.
     void cycle() {
         if (!std::exchange(has_begun_, true))
             Cells::all().begin();

@@ -24,7 +24,7 @@ SamplePort port_in(const PlainJson& item) {
     return port;
 }
 
-/// Returns the ports of a request `{"follow": [{"link", "owner", "port"} ...]}`; nullopt if it is none.
+/// Returns the ports of a request `{"follow": [{"link", "owner", "port"} ...]}`; nullopt for anything else.
 std::optional<std::set<SamplePort>> ports_in(const std::string& text) {
     const PlainJson request = PlainJson::parse(text, nullptr, false);
     if (!request.is_object() || !request.contains("follow") || !request["follow"].is_array() ||

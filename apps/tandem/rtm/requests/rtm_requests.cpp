@@ -269,7 +269,7 @@ nlohmann::json active_values(const RemoteComponent& component) {
     return nlohmann::json::object();
 }
 
-/// Converts CORBA exceptions, too, to a one-line error.
+/// Converts exceptions, including those of CORBA, to a one-line error.
 template <class Action>
 void with_errors(const RemoteComponent& component, Action action) {
     try {

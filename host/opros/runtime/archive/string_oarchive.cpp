@@ -28,7 +28,7 @@ std::string in_decimal(T value) {
     return text.str();
 }
 
-/// Formats the value as 'X' and two digits for each byte in the order of memory. Exact for floating point, too.
+/// Formats the value as 'X' and two digits for each byte in the order of memory. Also exact for floating point.
 template <typename T>
 std::string in_hexadecimal(const T& value) {
     const auto* bytes = reinterpret_cast<const unsigned char*>(&value);

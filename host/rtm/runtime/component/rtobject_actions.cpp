@@ -140,7 +140,7 @@ ReturnCode_t RTObject_impl::on_aborting(UniqueId ec_id) {
                        [&] { return onAborting(ec_id); });
 }
 
-// Configuration changes are applied in the error state, too: they may be what removes the cause.
+// Configuration changes also apply in the error state, because they may remove the cause.
 ReturnCode_t RTObject_impl::on_error(UniqueId ec_id) {
     return run_guarded("onError", ec_id, Pre::PRE_ON_ERROR, Post::POST_ON_ERROR, [&] {
         const ReturnCode_t result = onError(ec_id);

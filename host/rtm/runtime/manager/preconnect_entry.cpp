@@ -95,7 +95,7 @@ PortBase& find_local_port(Manager& manager, const std::string& name) {
 }
 
 // rtcname://localhost/ctx/Name0.port -> {rtcname://localhost/ctx/Name0, port}. The host name may have dots,
-// too: only a dot behind the last slash separates the port.
+// too: only a dot after the last slash separates the port.
 std::pair<std::string, std::string> split_remote_port_name(const std::string& name) {
     const std::size_t dot = name.rfind('.');
     if (dot == std::string::npos || dot < name.rfind('/') + 1)

@@ -53,7 +53,7 @@ RemoteName parse_remote_name(const std::string& name);
 std::string with_default_port(const std::string& address, int port);
 
 // All functions below: [any-thread]; they call another process and wait up to `milliseconds` for each call.
-// The returned reference has that time limit, too, and is released by the caller. They throw
+// The returned reference also has that time limit; the caller releases it. They throw
 // RemoteUnavailable.
 
 /// The root context of a name server at `HOST` or `HOST:PORT` (2809).

@@ -31,7 +31,8 @@ std::string application_profile(const std::string& components) {
 const std::string two_components =
     Folder::sub("Left", "Left.xml") + "\n" + Folder::sub("Right", "Right.xml") + "\n";
 
-/// An engine's folder with system.xml and the application Packages/app of two components, whose libraries are there.
+/// An engine's folder with system.xml and the application Packages/app of two components with their
+/// libraries.
 struct Engine : Folder {
     Engine() {
         write("engine/Packages/app/app.xml", application_profile(two_components));

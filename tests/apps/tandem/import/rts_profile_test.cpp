@@ -10,7 +10,7 @@ using namespace tandem::command;
 
 namespace {
 
-// As rtshell writes it: another prefix, service ports, names of ports without the component's.
+// In the form of rtshell: another prefix, service ports, and names of ports without the component's name.
 const std::string profile_text =
     "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
     "<r:RtsProfile xmlns:r=\"http://www.openrtp.org/namespaces/rts\" "

@@ -9,7 +9,7 @@ namespace tandem::test {
 
 inline mcap::ByteView bytes_of(std::string_view text) { return std::as_bytes(std::span(text)); }
 
-/// Keeps what is written, until there is no more room.
+/// Keeps the written bytes until there is no more room.
 struct MemorySink : mcap::Sink {
     void write(mcap::ByteView more) override {
         if (more.size() > room - bytes.size()) throw mcap::Error("no room");

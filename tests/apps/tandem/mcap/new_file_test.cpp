@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files of recordings: they replace nothing, have one writer, and end in order when there is no more room.
+// Files of recordings: they replace no file, have one writer, and end in order when there is no more room.
 #include "apps/tandem/mcap/check_file.hpp"
 #include "apps/tandem/mcap/reader.hpp"
 #include "apps/tandem/mcap/writer.hpp"
@@ -52,7 +52,7 @@ struct FullSink : tandem::test::MemorySink {
     bool reserves = true;
 };
 
-/// Writes messages of 100 bytes, ten per chunk, until there is no more room. Returns what is left.
+/// Writes messages of 100 bytes, ten per chunk, until there is no more room. Returns the content of the file.
 McapWriter::Rest fill(FullSink& sink) {
     McapWriter writer(sink, {.library = "test", .chunk_size = 1300});
     const auto channel = writer.add_channel("topic", 0, "cdr");

@@ -60,7 +60,8 @@ TEST_CASE("full and flushed chunks are written at once, a message in an open chu
     writer.flush();
     CHECK(sink.flushed > first + 600);
     CHECK(sink.flushed == writer.bytes_written());
-    writer.write(channel, 2, 3, 3, bytes_of(std::string(5000, 'c'))); // more than a chunk: one of its own
+    writer.write(channel, 2, 3, 3,
+                 bytes_of(std::string(5000, 'c'))); // longer than a chunk, so it gets a separate one
     writer.flush();
     CHECK(sink.flushed > first + 5600);
 }

@@ -330,7 +330,7 @@ TEST_CASE("the profile of a component may be in the folder above its sources") {
                Catch::Contains("no component profile")); // only that of Two
 }
 
-// In the style of the vision components of OPRoS: OpenCV's C API of 2010.
+// In the style of OPRoS's vision components: OpenCV's C API of 2010.
 TEST_CASE("the old headers of OpenCV are found where OpenCV 4 is, and its package is named where it is not") {
     const Folder folder;
     folder.write(

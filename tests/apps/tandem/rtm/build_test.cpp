@@ -253,7 +253,8 @@ TEST_CASE("each of several modules in a folder is built from its own sources") {
                                                 " were not built: Subscriber (see the lines above)\n"));
 }
 
-// In the style of projects for Windows and Linux: only CMake's expansion of the macro says that SeveralComp.cpp is a program.
+// In the style of projects for Windows and Linux: only CMake's expansion of the macro shows that
+// SeveralComp.cpp is a program.
 TEST_CASE("an RT-Component is built as its CMake project says, on Linux and without what is missing") {
     const Folder folder;
     const std::string dir = folder.path() / "Several";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What tandem rtm cat prints is what tandem rtm inject accepts.
+// tandem rtm inject accepts the output of tandem rtm cat.
 #include "apps/tandem/rtm/stream/cdr_json_converter.hpp"
 
 #include <catch2/catch.hpp>

@@ -72,7 +72,7 @@ TEST_CASE("a project in the layout of RTCBuilder builds unchanged with a moved i
     // Bridges know its services.
     CHECK_THAT(run("nm -DC " + build + "/src/Dictionary.so"), Catch::Contains("RTC::InterfaceSignatures"));
 
-    // The same folder without its project files; its own program stays out.
+    // Builds the same folder without its project files; its own program is left out.
     run(tree.bin + "tandem rtm build " + project);
     host_runs(tree.bin + "rtm_host -f " + project +
                   "/rtc.conf -o manager.modules.preload:Dictionary.so "
@@ -110,13 +110,13 @@ TEST_CASE("rtm-config and pkg-config work in a moved installation, and no file c
     const auto wrong = shell(config + "--wings");
     CHECK(wrong.exit_code == 1);
     CHECK_THAT(wrong.output, Catch::Contains("unknown option --wings"));
-    // As makefiles of rtc-template use it.
+    // Makefiles of rtc-template use it in this way.
     tree.folder.write("x.cpp",
                       "#include <CameraCommonInterfaceSkel.h>\n#include <rtm/Manager.h>\n"
                       "int main() { return RTC::Manager::init(0, 0) == 0 || !Img::_tc_TimedCameraImage; }\n");
     run("bash -c \"c++ " + tree.at("x.cpp") + " -o " + tree.at("x") + " $(" + config +
         "--cflags --libs | tr \"\\n\" \" \")\"");
-    // An IDL of its own on top of the camera's, which lies beside the data types as in OpenRTM-aist 2.x.
+    // A user's IDL that includes the camera's, which is beside the data types as in OpenRTM-aist 2.x.
     tree.folder.write("Eye.idl", "#include \"CameraCommonInterface.idl\"\n"
                                  "struct Eye { Img::CameraImage seen; };\n");
     run("bash -c \"cd " + tree.at("") + " && omniidl $(" + config + "--idlflags | tr \"\\n\" \" \") -I$(" +
@@ -208,7 +208,7 @@ TEST_CASE("a package of catkin with rtmbuild builds without ROS and its componen
     const std::string precreate = " -o manager.components.precreate:Hello";
     host_runs(tree.bin + "rtm_host -o manager.modules.preload:" + tree.at("b/rtc/Hello.so") + precreate,
               "hello from catkin");
-    // The same folder by the plain command.
+    // Builds the same folder with the plain command.
     run(tree.bin + "tandem rtm build " + tree.at("hello"));
     host_runs(tree.bin + "rtm_host -o manager.modules.preload:" + tree.at("hello/Hello.so") + precreate,
               "hello from catkin");
@@ -221,7 +221,7 @@ TEST_CASE("a package of catkin with rtmbuild builds without ROS and its componen
     CHECK(refused.exit_code != 0);
     CHECK_THAT(refused.output, Catch::Contains("needs \x27some_msgs\x27 of ROS, which is not installed") &&
                                    Catch::Contains("apt install libsome-msgs-dev"));
-    // As Debian's packages of ROS tell what they have.
+    // In the form in which Debian's packages of ROS list their contents.
     tree.folder.write("debian/share/some_msgs/cmake/some_msgsConfig.cmake",
                       "set(some_msgs_INCLUDE_DIRS /of/some)\nset(some_msgs_LIBRARIES some.so)\n");
     CHECK_THAT(run(configure + " -DCMAKE_PREFIX_PATH=" + tree.at("debian")),

@@ -50,7 +50,7 @@ struct Counting {
     std::filesystem::path folder, file;
 };
 
-/// `tandem rtm record` that goes on until it is ended.
+/// A `tandem rtm record` that runs until it is ended.
 struct Recording {
     explicit Recording(const Counting& counting, std::vector<std::string> more = {})
         : output(std::tmpfile()) {
@@ -64,7 +64,7 @@ struct Recording {
     std::optional<tandem::process::ChildProcess> child;
 };
 
-/// All that is in the file, which is closed.
+/// Returns the content of the file, which is closed.
 std::string content_of(std::FILE* file) {
     std::string text;
     std::rewind(file);

@@ -43,7 +43,7 @@ struct Running {
     }
 };
 
-/// Takes connections and says nothing; or, told so, what no GIOP server says.
+/// Accepts connections and sends nothing, or, if requested, bytes that no GIOP server sends.
 class WrongServer {
   public:
     explicit WrongServer(std::string answer) : answer_(std::move(answer)) {
@@ -431,7 +431,7 @@ TEST_CASE("tandem rtm list finds hosts that listen with sockets of IPv6") {
         testing::HostProcess host(arguments);
         REQUIRE(host.wait_for_output("ready\n"));
         for (const auto& endpoint : tandem::local::find_local_endpoints(
-                 tandem::local::manager_endpoint)) // managers of OpenRTM-aist have none
+                 tandem::local::manager_endpoint)) // managers of OpenRTM-aist have no such socket
             if (endpoint.pid == host.pid()) std::filesystem::remove(endpoint.socket);
         const std::string shown = std::string(address) == "[::1]:" ? address : "127.0.0.1:";
         const Result result = tandem_program({"rtm", "list"});

@@ -36,7 +36,8 @@ TEST_CASE("a missing or wrong device library makes its component fail with the c
     CHECK(state(application, "S") == OPROS_CS_ERROR);
     CHECK(application.find_component("S")->component().getErrorInfo() ==
           (device == "nowhere" ? OPROS_FIND_DLL_ERROR : OPROS_LOAD_DLL_ERROR));
-    CHECK_THROWS_AS(application.start(), tandem::engine::SetupError); // nothing else is there
+    CHECK_THROWS_AS(application.start(),
+                    tandem::engine::SetupError); // the application has no other component
 }
 
 TEST_CASE("a device library that the application names replaces the profile's under all of its names") {

@@ -24,7 +24,7 @@ ComponentDirectory& directory_of(Application& application) {
     return *dynamic_cast<Watcher&>(application.find_component("W")->component()).directory;
 }
 
-/// Keeps the states it is told of.
+/// Records the states that it is told.
 struct States final : LifecycleListener {
     void stateChanged(LifecycleState state) override { seen.push_back(state); }
     std::vector<LifecycleState> seen;

@@ -55,7 +55,7 @@ class Process {
         return true;
     }
     void signal(int number) { kill(pid_, number); }
-    /// As a log's reader that has stalled: fills the pipe, and reads no more.
+    /// Behaves like a stalled reader of the log: fills the pipe, and reads no more.
     void stall() {
         const int writer =
             open(("/proc/self/fd/" + std::to_string(read_end_)).c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
@@ -76,7 +76,7 @@ class Process {
         }
         return std::nullopt;
     }
-    /// As a log's reader that ends.
+    /// Behaves like a reader of the log that ends.
     void stop_reading() {
         close(read_end_);
         read_end_ = -1;

@@ -32,7 +32,7 @@ struct DirectLink : IDataPortLink {
     ReturnType clearSource() override { return 0; }
 };
 
-/// As a bridge has it.
+/// In the form of a bridge.
 struct RehearsableLink : DirectLink, tandem::rt::Rehearsable {
     using DirectLink::DirectLink;
     ReturnType push(opros_any& data) override {

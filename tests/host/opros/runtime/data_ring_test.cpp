@@ -25,7 +25,7 @@ std::vector<T> drain(InputDataPort<T>& port) {
     return values;
 }
 
-/// As the engine makes it between two components.
+/// In the form in which the engine connects two components.
 struct LocalLink : IDataPortLink, tandem::rt::Rehearsable {
     explicit LocalLink(InputDataPortInterface& to) : destination(to) {}
     InputDataPortInterface& destination;
@@ -45,7 +45,7 @@ struct CountingListener : DataPortListener {
     int count = 0;
 };
 
-/// A component's port that does something of its own with what is pushed.
+/// A component's port that processes pushed values itself.
 struct OwnPort : InputDataPort<Values> {
     ReturnType push(opros_any& data) override {
         ++pushes;

@@ -154,7 +154,7 @@ TEST_CASE("values of sources fill the queue as pushed ones do, whoever looks at 
     const unsigned int limit = GENERATE(1, 4);
     const int sources = GENERATE(1, 2);
     InputDataPort<double> port(policy, limit), pushed(policy, limit);
-    // As a link's source, which drops itself what is beyond the depth.
+    // Like a link's source, which itself drops what is beyond the depth.
     struct Bounded : TestSource {
         void setDepth(std::size_t values) override { depth = values; }
         void send_bounded(double value) {
@@ -429,7 +429,7 @@ TEST_CASE("a value can be pushed from an archive") {
 }
 
 namespace {
-/// Its reading throws what is no std::exception.
+/// Its reading throws something that is not a std::exception.
 struct ThrowingOnLoad {
     void save(opros::archive::oarchive& ar, const unsigned int) { ar << number; }
     void load(opros::archive::iarchive& ar, const unsigned int) {

@@ -60,7 +60,7 @@ class TypeRecorder : public opros::archive::iarchive {
     }
 };
 
-/// What binary archives write into and read from.
+/// The memory that binary archives write to and read from.
 class BinaryPipe {
   public:
     std::stringstream bytes;

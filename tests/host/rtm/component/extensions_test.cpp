@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What modules add to a manager: context types, log streams, tasks, names, numbering policies.
+// The extensions that modules add to a manager: context types, log streams, tasks, names, numbering policies.
 #include "tests/host/rtm/manager_fixture.hpp"
 #include <chrono>
 #include <rtm/ExtTrigExecutionContext.h>

@@ -10,7 +10,7 @@ using namespace testing;
 
 namespace {
 
-/// What a tool was told. [any-thread]
+/// Everything that a tool was told. [any-thread]
 class Told {
   public:
     void add(const std::string& line) {

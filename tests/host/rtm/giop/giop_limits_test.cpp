@@ -23,7 +23,7 @@ RTC::ConnectorProfile connection(std::initializer_list<RTC::PortService_ptr> por
     return profile;
 }
 
-// Ends the arguments with a length of so many bytes that do not follow.
+// Ends the arguments with the length of this number of bytes, which do not follow.
 Call with_length(Call call, std::size_t at, std::uint32_t length) {
     for (const bool little : {false, true}) {
         call.arguments[little].resize(at + 4);

@@ -137,7 +137,8 @@ inline Bytes request(const std::string& key, const std::string& operation, const
     return m.finish();
 }
 
-/// The same message in fragments of GIOP 1.2: the first has about `first` bytes, the others about `each`.
+/// Returns the same message in fragments of GIOP 1.2: the first has about `first` bytes, the others about
+/// `each`.
 inline std::vector<Bytes> in_fragments(const Bytes& whole, std::size_t first, std::size_t each) {
     const bool little = whole[6] & 1;
     std::vector<Bytes> pieces;

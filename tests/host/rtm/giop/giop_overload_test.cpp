@@ -33,7 +33,7 @@ Bytes with_profile_as_target() {
     return m.finish();
 }
 
-// A fragment of GIOP 1.2 that is larger than a buffer of omniORB and whose size is no multiple of 8.
+// A fragment of GIOP 1.2 that is larger than a buffer of omniORB and whose size is not a multiple of 8.
 Bytes odd_fragment() {
     MessageWriter m(true, 2, 0);
     m.bytes[6] = 1 | 2; // more fragments
@@ -213,7 +213,7 @@ TEST_CASE("A call that takes longer than corba.request_timeout gets its reply") 
     REQUIRE(other.host.wait_for_output("ready\n"));
     ManagerFixture fixture;
     RTM::Manager_var manager = other.manager(fixture.manager().theORB());
-    // So long that it does not come at once, which gives it a deadline.
+    // Long enough that it does not arrive at once, so it gets a deadline.
     const std::string text(100'000, 'x');
     RTC::RTObject_var slow = manager->create_component(
         ("SlowDevice?instance_name=Slow&in=initialize&ms=1000&text=" + text).c_str());

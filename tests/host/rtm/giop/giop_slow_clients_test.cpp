@@ -15,7 +15,7 @@ std::string shared_threads_only(int count, const std::string& more = "") {
 
 const Bytes question = request("manager", "is_master", {}, 2, true);
 
-// Whether a newcomer is served before long. The host refuses newcomers while its threads are in calls.
+// Returns whether a new client is served soon. The host refuses new clients while its threads are in calls.
 bool serves_newcomers(const std::string& port) {
     for (int i = 0; i < 200; ++i) {
         Sockets sockets;

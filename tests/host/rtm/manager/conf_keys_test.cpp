@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The check of rtc.conf against the table of keys, files that are no configuration, and the log settings.
+// The check of rtc.conf against the table of keys, files that are not a configuration, and the log settings.
 #include "host/rtm/runtime/configuration/conf_file.hpp"
 #include "host/rtm/runtime/configuration/conf_keys.hpp"
 #include "host/rtm/runtime/configuration/openrtm_modules.hpp"
@@ -76,7 +76,7 @@ TEST_CASE("Misspelt keys and wrong values of one kind of execution context, or o
     for (std::size_t i = 0; i < lines.size(); ++i) CHECK_THAT(lines[i], Contains(expected[i]));
     CHECK_THROWS_WITH(check_text("\nec.PeriodicExecutionContext.rate: abc\n"),
                       Contains(":2: ec.PeriodicExecutionContext.rate is abc, expected a rate in Hz above 0"));
-    // A context that a library brings has options of its own, and a context may have any name.
+    // A context type of a library has additional options, and a context may have any name.
     CHECK(
         check_text("ec.FieldbusContext.bus: can0\nec.FieldbusContext.cycle.us: 500\nec.ec1.cpu_affinity: 0\n"
                    "ec.PeriodicExecutionContext0.rate: 5\n")

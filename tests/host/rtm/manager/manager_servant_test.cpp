@@ -110,7 +110,7 @@ TEST_CASE("The profile of the manager has the keys that tools show") {
     ManagerFixture fixture;
     RTM::ManagerProfile_var profile = fixture.manager().getManagerServant().get_profile();
     const coil::Properties properties = NVUtil::toProperties(profile->properties);
-    // What rtcat of rtshell shows, and what the manager of OpenRTM-aist 2.1 has.
+    // The keys that rtcat of rtshell shows and that the manager of OpenRTM-aist 2.1 has.
     for (const char* key :
          {"name", "instance_name", "pid", "naming_formats", "language", "supported_languages",
           "corba_servant", "components.naming_policy", "components.preconnect", "components.preactivation",

@@ -30,7 +30,8 @@ TEST_CASE("A component of another process is activated, by the name at its manag
     ManagerFixture fixture(false, {short_check_interval});
     fixture.manager().activateComponentOrThrow("rtcloc://127.0.0.1:" + other.port + "/Counter0");
     CHECK(is_active(fixture, other, "Counter0"));
-    fixture.manager().activateComponentOrThrow("rtcloc://127.0.0.1:" + other.port + "/Counter0"); // once more
+    fixture.manager().activateComponentOrThrow("rtcloc://127.0.0.1:" + other.port +
+                                               "/Counter0"); // a second time
     CHECK(is_active(fixture, other, "Counter0"));
     fixture.manager().activateComponentOrThrow("rtcname://127.0.0.1:" + name_port + "/t.host_cxt/Counter1");
     CHECK(eventually([&] { return is_active(fixture, other, "Counter1"); }));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The checker checked: programs of two to four threads of which the C++ memory model says what may come out.
+// Tests the checker with programs of two to four threads whose possible outcomes the C++ memory model
+// defines.
 #include "tests/shm/model/checker/model.hpp"
 
 #include <catch2/catch.hpp>
@@ -21,7 +22,7 @@ struct Litmus {
 };
 using Part = std::function<void(Litmus&)>;
 
-/// All that the registers can hold in the end.
+/// All values that the registers can hold at the end.
 Results results(std::size_t registers, const std::vector<Part>& parts, Outcome* outcome = nullptr) {
     Results found;
     const auto all = explore(

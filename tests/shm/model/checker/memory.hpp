@@ -33,7 +33,7 @@ struct Seen {
     }
 };
 
-/// What a thread knows: stores, and how far each thread had come (for plain accesses).
+/// The knowledge of a thread: stores, and how far each thread had come (for plain accesses).
 struct View {
     Seen seen;
     std::array<std::uint32_t, max_threads> clock{};

@@ -80,7 +80,8 @@ inline std::size_t Execution::pick() {
     return *chosen;
 }
 
-/// Nobody can run: the clock goes on to where somebody can. 0: nobody waits for the clock either.
+/// No thread can run: the clock advances to the time at which one can. Returns 0 if no thread waits for the
+/// clock.
 inline std::size_t Execution::pass_time() {
     std::size_t first = 0;
     for (std::size_t i = 1; i <= count_; ++i) {
@@ -126,7 +127,7 @@ inline void Execution::hand_on() {
     if (ending_) throw Ended{};
 }
 
-/// The start of every step: says what comes, waits for the turn.
+/// The start of every step: announces the step, and waits for the turn.
 inline void Execution::await_turn(Operation operation, bool leaves_a_trace) {
     Thread& thread = me();
     const bool dies = thread.mortal && leaves_a_trace && !somebody_died_ && choices_.value(2, 24) == 1;

@@ -73,7 +73,7 @@ inline std::vector<Mutation> mutations_of(const AccessLog& log) {
     return all;
 }
 
-/// What a run of the mutants has to tell.
+/// The results of a run of the mutants.
 struct Mutants {
     std::size_t all = 0, caught = 0, spared = 0;
     std::vector<std::string> survived; ///< and are not spared

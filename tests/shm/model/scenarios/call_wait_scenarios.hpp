@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Calls that are answered: who sleeps, who polls, who is woken.
+// Calls that are answered: which threads sleep, which one polls, which one is woken.
 #pragma once
 #include "tests/shm/model/scenarios/call_world.hpp"
 #include "tests/shm/model/scenarios/case.hpp"
@@ -168,8 +168,8 @@ inline std::vector<Case> call_wait_cases() {
                          },
                          Settings{.lapses = 1}});
 
-    // Who lies down while the poller leaves and nobody sleeps yet is told neither by the poller nor, later,
-    // by a caller who still believes in the poller.
+    // A thread that is about to sleep while the poller leaves, and while nobody sleeps yet, is woken neither
+    // by the poller nor, later, by a caller that still relies on the poller.
     for (const bool before : {true, false})
         cases.push_back({before ? "the worker that has been polling leaves while its colleague lies down"
                                 : "the worker that polls leaves while its colleague lies down",

@@ -71,7 +71,7 @@ class CallWorld {
         return collect(id, ticket);
     }
 
-    /// How far the worker says that a call is.
+    /// The progress that the worker reports for a call.
     static double progress_of(std::uint64_t id) { return static_cast<double>(id) / 8; }
     /// At any time it is that of this call, or nothing; and there is some when there is a reply.
     void expect_progress(std::uint32_t id, const CallTicket& ticket) {
@@ -85,7 +85,8 @@ class CallWorld {
         return worker.take(polling, taken) ? std::optional(taken) : std::nullopt;
     }
 
-    /// Serves until end_all_waits(). `tells`: says how far the calls are. `polls`: may be the worker that polls.
+    /// Serves until end_all_waits(). `tells`: reports the progress of calls. `polls`: may be the worker that
+    /// polls.
     void serve(std::uint32_t calls, bool polls = false, bool tells = false) {
         int fruitless = 0;
         for (bool polling = false; calls > 0;) {
@@ -97,7 +98,8 @@ class CallWorld {
                 continue;
             }
             if (worker.waits_ended()) break;
-            // Who finds a call that a colleague is just about to take goes round until that one has.
+            // A worker that finds a call which another one is about to take repeats its search until that one
+            // has taken it.
             if (++fruitless > 2) A::pause();
             polling = polling || (polls && worker.try_become_poller());
             if (polling && worker.spin(A::now() + 50'000)) continue;
@@ -107,7 +109,7 @@ class CallWorld {
         }
     }
 
-    /// As a worker that never waits: looks for a call so many times, and answers it.
+    /// Like a worker that never waits: looks for a call this number of times, and answers it.
     void look(int times) {
         bool polling = false;
         for (int i = 0; i < times; ++i)

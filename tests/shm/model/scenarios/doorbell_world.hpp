@@ -36,7 +36,7 @@ class DoorbellWorld {
         }
     }
 
-    /// The same with an eye on the data.
+    /// Does the same, and watches the data.
     void look(unsigned ports = all) {
         while (count_ < std::min(ports, ports_)) look_once(for_ever);
     }
@@ -45,7 +45,7 @@ class DoorbellWorld {
         for (unsigned port = 0; port < ports_; ++port) see(port);
     }
 
-    /// As nobody should.
+    /// A wrong order that the checker must detect.
     void look_without_second_look() {
         while (count_ < ports_) {
             bool first = true;

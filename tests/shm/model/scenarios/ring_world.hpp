@@ -47,7 +47,7 @@ class RingWorld {
         count(accepted, bytes);
         return accepted;
     }
-    /// The same in two steps, with less than was reserved. Before it, another reservation is abandoned.
+    /// Does the same in two steps, with less than was reserved. Before it, another reservation is abandoned.
     bool write_reserved(std::size_t reserved, std::size_t bytes) {
         using Reservation = typename RingProducer<A>::Reservation;
         ++tried_;
@@ -72,7 +72,7 @@ class RingWorld {
         depth_ = depth;
         reader->set_depth(depth);
     }
-    /// Another writer goes on from where the one before it has ended.
+    /// Another writer continues from the place at which the previous one has ended.
     void new_writer() { writer = std::make_unique<RingProducer<A>>(view_); }
 
     /// At rest: all that can be read is read, and everything adds up. `whole`: no end was killed.
