@@ -123,10 +123,12 @@ struct TickState {
     std::size_t slot = 0; ///< distinguishes the ticks of a process
     std::uint64_t period_ns = 0, ticks = 0, overruns = 0, skipped = 0; ///< rt::TickStats
     std::uint64_t ticks_recently = 0, overruns_recently = 0;
-    std::array<std::uint64_t, rt::TickSlot::octaves> lateness{}; ///< by octave, since the first tick
-    std::uint64_t latest_ns = 0;                                 ///< maximum lateness since the first tick
+    std::array<std::uint64_t, rt::TickSlot::octaves> lateness{},
+        execution{};              ///< by octave, since the first tick
+    std::uint64_t latest_ns = 0;  ///< maximum lateness since the first tick
+    std::uint64_t longest_ns = 0; ///< maximum execution time since the first tick
     double ticks_per_s = 0;
-    Times recent_lateness{}; ///< upper ends of octaves
+    Times recent_lateness{}, recent_execution{}; ///< upper ends of octaves
     std::optional<HangState> hang{};
 };
 

@@ -182,7 +182,9 @@ std::string state_json(const State& state, const Verdict& verdict, const std::de
                                  {"skipped", tick.skipped},
                                  {"latest_ns", tick.latest_ns},
                                  {"hang", hang_json(tick.hang)},
-                                 {"lateness", times_json(tick.recent_lateness)}});
+                                 {"lateness", times_json(tick.recent_lateness)},
+                                 {"longest_ns", tick.longest_ns},
+                                 {"execution", times_json(tick.recent_execution)}});
     for (const RefusedConnectionState& refused : state.refused)
         json["refused_connections"].push_back({{"program", refused.program},
                                                {"pid", refused.pid},

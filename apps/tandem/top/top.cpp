@@ -146,12 +146,14 @@ std::string ports_table(const State& state) {
 }
 
 std::string ticks_table(const State& state) {
-    Table table({"TICKS OF", ">PID", ">PERIOD ms", ">TICKS/S", ">LATEST us", ">OVERRUNS", ">SKIPPED"});
+    Table table({"TICKS OF", ">PID", ">PERIOD ms", ">TICKS/S", ">CYCLE us p50 / p99 / max", ">LATEST us",
+                 ">OVERRUNS", ">SKIPPED"});
     for (const auto& tick : state.ticks)
         table.add_row({tick.name, std::to_string(tick.pid),
                        fmt::format("{:g}", static_cast<double>(tick.period_ns) / 1e6),
                        tick.hang ? fmt::format("hangs {:.0f} s", tick.hang->seconds)
                                  : fmt::format("{:.1f}", tick.ticks_per_s),
+                       times_text(tick.recent_execution),
                        fmt::format("{:.1f}", static_cast<double>(tick.latest_ns) / 1000),
                        std::to_string(tick.overruns), std::to_string(tick.skipped)});
     return table.empty() ? "" : table.text() + "\n";
