@@ -38,7 +38,8 @@ void add_graph(CLI::App& tandem, Action& selected) {
     CLI::App* command = add_command(
         tandem, "graph", "Shows the components and ports that running links connect",
         "Shows hosts, the components that they share, and the ports between them with messages per second,\n"
-        "measured over half a second. In drawings, red ports cannot be connected, grey ports have been "
+        "measured over half a second; then all components of each host, and the connections between them.\n"
+        "In drawings, red ports cannot be connected, grey ports have been "
         "silent\n"
         "for 2 s, and dashed lines are services.\n"
         "Exit code 1 if the link does not exist, or if --svg finds no dot (package graphviz).");

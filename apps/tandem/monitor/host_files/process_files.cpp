@@ -11,6 +11,18 @@
 
 namespace tandem::monitor {
 
+std::vector<RunningHost> running_hosts(const State& state) {
+    std::vector<RunningHost> hosts;
+    std::set<std::uint32_t> seen;
+    for (const LinkState& link : state.links)
+        for (const SideState& side : link.sides)
+            if (side.state == shm::PeerState::alive && side.pid != 0 && seen.insert(side.pid).second)
+                hosts.push_back({side.pid, side.program});
+    for (const HostState& host : state.hosts)
+        if (!host.usage.stopped && seen.insert(host.pid).second) hosts.push_back({host.pid, host.program});
+    return hosts;
+}
+
 std::vector<process::FileDescriptor> open_memory_files(std::uint32_t pid, const char* name, std::size_t size,
                                                        std::size_t most) {
     std::vector<process::FileDescriptor> files;
