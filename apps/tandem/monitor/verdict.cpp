@@ -247,7 +247,8 @@ Verdict judge(const State& state) {
     for (const TickState& tick : state.ticks) judge_tick(tick, findings);
     judge_hosts(state, findings);
     judge_look(state, findings);
-    if (seen == 0 && !state.links.empty()) findings.add(Level::no_link, "all links belong to other users");
+    if (seen == 0 && !state.links.empty() && state.hosts.empty())
+        findings.add(Level::no_link, "all links belong to other users");
     Verdict verdict = std::move(findings).verdict();
     if (verdict.level == Level::well)
         verdict.reason =

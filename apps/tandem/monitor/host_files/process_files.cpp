@@ -32,6 +32,9 @@ std::vector<process::FileDescriptor> open_memory_files(std::uint32_t pid, const 
     for (const auto& entry : std::filesystem::directory_iterator(fmt::format("/proc/{}/fd", pid), failure)) {
         std::error_code gone;
         if (files.size() >= most || std::filesystem::read_symlink(entry.path(), gone) != wanted) continue;
+        // The owner has opened it for writing; another monitor reads it only.
+        constexpr auto writable = std::filesystem::perms::owner_write;
+        if ((entry.symlink_status(gone).permissions() & writable) == std::filesystem::perms::none) continue;
         process::FileDescriptor file(open(entry.path().c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
         struct stat info {};
         if (file.get() >= 0 && fstat(file.get(), &info) == 0 && info.st_size == static_cast<off_t>(size) &&

@@ -23,7 +23,7 @@ struct RunningHost {
 std::vector<RunningHost> running_hosts(const State& state);
 
 /// Opens up to `most` memory files of a process that have this name and size in bytes. Returns none of another user's
-/// process.
+/// process, and none that the process only reads.
 std::vector<process::FileDescriptor> open_memory_files(std::uint32_t pid, const char* name, std::size_t size,
                                                        std::size_t most);
 

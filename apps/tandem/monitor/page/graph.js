@@ -18,7 +18,7 @@ const headOf = (component) => hasDetail(component) ? 44 : 28;
 
 /** Returns when a component runs that has no ticks of its own; empty if that is unknown. */
 function executionOf({base, part, contexts = []}) {
-  if (part?.execution) return part.period_ns > 0 ? duration(part.period_ns) : part.execution;
+  if (part?.execution) return part.period_ns > 0 ? duration(part.period_ns) : part.execution === 'passive' ? '' : part.execution;
   const context = contexts.find(({running}) => running) ?? contexts[0];
   if (!context) return '';
   const when = context.kind === 'periodic' ? duration(context.period_ns) : 'triggered';
@@ -39,7 +39,7 @@ function detailsOf({base, part, contexts = [], row}) {
 }
 
 /** Returns the processor time and memory of a host. */
-const usageOf = ({listed}) => listed ? `${listed.cpu_percent.toFixed(0)} % CPU, ${(listed.resident_bytes / 2 ** 20).toFixed(0)} MiB` : '';
+const usageOf = ({listed, state}) => listed && (state === 'alive' || state === 'stopped') ? `${listed.cpu_percent.toFixed(0)} % CPU, ${(listed.resident_bytes / 2 ** 20).toFixed(0)} MiB` : '';
 const threadsOf = ({listed}) => listed ? `${listed.threads} threads; the busiest: ${listed.busiest_threads.slice(0, 8)
   .map(({name, cpu_percent: share}) => `${name} ${share.toFixed(1)} %`).join(', ')}` : '';
 
@@ -267,7 +267,7 @@ export class Graph {
     const {x, y} = this.drawing.places.get(port.id);
     const [dot, text, title] = group.children;
     if (port.key || port.filter) setAttributes(group, {'aria-label': port.name});
-    setClass(group, `port${port.mismatch ? ' mismatch' : port.connections === 0 && port.inside ? ' unconnected' : ''}${port.key && port.key === this.chosen ? ' chosen' : ''}`);
+    setClass(group, `port${port.mismatch ? ' mismatch' : port.inside ? port.connections === 0 ? ' inside unconnected' : ' inside' : ''}${port.key && port.key === this.chosen ? ' chosen' : ''}`);
     setAttributes(dot, {cx: x, cy: y});
     const left = port.side === 'first';
     setAttributes(text, {x: left ? x - 10 : x + 10, y: y + 4, 'text-anchor': left ? 'end' : 'start'});

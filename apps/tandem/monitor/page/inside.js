@@ -46,14 +46,16 @@ class Inside {
     host.components.push(...inside.sort((a, b) => urgency(b) - urgency(a)).slice(0, mostInside));
   }
 
-  addPorts(host) {
+  /** Adds the ports of proxies, after those of other components: the graph has most of them as mirrors already. */
+  addPorts(host, ofProxies) {
     const mirrors = host.components.filter(({mirror}) => mirror);
     for (const listed of host.inventory?.ports ?? []) {
       const boxes = host.components.filter(({mirror, base}) => !mirror && base === listed.component);
       const proxy = boxes.some(({part}) => proxyTypes.has(part?.type));
+      if (proxy !== ofProxies) continue;
       let port = findPort(proxy ? mirrors : boxes, listed.component, listed.name);
-      const mirror = proxy && port !== undefined;
-      if (!port && !proxy && boxes.length > 0 && this.hiddenPorts === 0) {
+      const mirror = proxy && port !== undefined, drawn = !proxy || this.reachesInside(listed);
+      if (!port && drawn && boxes.length > 0 && this.hiddenPorts === 0) {
         port = {id: portIdOf(boxes[0], listed.name), name: listed.name, kind: kindOf(listed), type: listed.type, out: isSource(listed), inside: true};
         boxes[0].ports.push(port);
       }
@@ -64,6 +66,11 @@ class Inside {
         this.ends.get(id).push({host, port, mirror, source: isSource(listed), service: listed.kind === 'service'});
       }
     }
+  }
+
+  /** Whether a port is connected to one that no link shares. The other connections of a proxy are part of a link. */
+  reachesInside({connections}) {
+    return connections.some((id) => this.ends.get(id)?.some(({port}) => port.inside));
   }
 
   /** Returns the edges of connections with two ends that are drawn. A link draws the connections between its ports and mirrors. */
@@ -104,7 +111,7 @@ export function addInside(hosts, listed, rows) {
   }
   const inside = new Inside(hosts, rows);
   for (const host of hosts) inside.addComponents(host);
-  for (const host of hosts) inside.addPorts(host);
+  for (const ofProxies of [false, true]) for (const host of hosts) inside.addPorts(host, ofProxies);
   const edges = inside.edges();
   for (const {components} of hosts)
     for (const {ports} of components)

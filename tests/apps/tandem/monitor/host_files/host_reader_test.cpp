@@ -6,6 +6,7 @@
 #include "host/process/published/inventory.hpp"
 
 #include <catch2/catch.hpp>
+#include <fcntl.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -132,6 +133,20 @@ TEST_CASE("a host without a link is found by what it lists, and its use of the m
     CHECK_FALSE(host->usage.threads.empty());
     CHECK(own_host(hosts_of(false, {})) == nullptr);
     unlist_part(&arm);
+}
+
+TEST_CASE("a process that only reads the inventory of a host is no host") {
+    const std::string text = "component\tArm\tT\t\t0\n";
+    auto file = false_inventory(sound_head(4, text.size()), text);
+    InventoryReader reader;
+    REQUIRE(reader.look(own_pid));
+    CHECK(reader.read(own_pid)->components.size() == 1);
+    const tandem::process::FileDescriptor read_only(
+        open(("/proc/self/fd/" + std::to_string(file.get())).c_str(), O_RDONLY | O_CLOEXEC));
+    REQUIRE(read_only);
+    close(file.release());
+    reader.keep({});
+    CHECK((!reader.look(own_pid) || reader.read(own_pid)->components.empty()));
 }
 
 TEST_CASE("the hosts of links are read, with all links of each") {
