@@ -104,6 +104,7 @@ void PeriodicTick::sleep_until_next() {
     const std::int64_t woken = now;
     now = poll_until_next(now);
     polling_.note_polled(now - woken);
+    began_ = now;
     note_lateness(now - next_);
 }
 
@@ -112,16 +113,30 @@ void PeriodicTick::note_lateness(std::int64_t lateness) {
     std::atomic_ref(slot_->lateness_ns_last).store(lateness, std::memory_order_relaxed);
     if (lateness > slot_->lateness_ns_max)
         std::atomic_ref(slot_->lateness_ns_max).store(lateness, std::memory_order_relaxed);
-    if (!interrupted()) count(slot_->lateness[lateness_octave(lateness)]);
+    if (!interrupted()) count(slot_->lateness[time_octave(lateness)]);
 }
 
 void PeriodicTick::note_due(std::int64_t when) {
     std::atomic_ref(slot_->due_ns).store(when, std::memory_order_relaxed);
 }
 
-void PeriodicTick::begin_cycle() { note_due(monotonic_ns() + period_); }
+void PeriodicTick::note_execution(std::int64_t ended) {
+    if (began_ == 0) return;
+    const std::int64_t took = ended - std::exchange(began_, 0);
+    if (took > slot_->execution_ns_max)
+        std::atomic_ref(slot_->execution_ns_max).store(took, std::memory_order_relaxed);
+    count(slot_->execution[time_octave(took)]);
+}
 
-void PeriodicTick::rest() { note_due(0); }
+void PeriodicTick::begin_cycle() {
+    began_ = monotonic_ns();
+    note_due(began_ + period_);
+}
+
+void PeriodicTick::rest() {
+    began_ = 0;
+    note_due(0);
+}
 
 void PeriodicTick::interrupt() noexcept {
     interrupted_.store(1);
@@ -134,6 +149,7 @@ std::uint64_t PeriodicTick::wait() {
         return 0;
     }
     const std::int64_t now = monotonic_ns();
+    note_execution(now);
     std::uint64_t missed = 0;
     if (started_)
         missed = plan_next(now);
@@ -152,12 +168,17 @@ void PeriodicTick::tick_at(std::int64_t planned) {
     if (missed > 0) count(slot_->skipped, static_cast<std::uint64_t>(missed));
     started_ = true;
     next_ = planned;
-    note_lateness(monotonic_ns() - planned);
+    began_ = monotonic_ns();
+    note_lateness(began_ - planned);
     note_due(interrupted() ? 0 : planned + period_);
     if (!interrupted()) count(slot_->ticks);
 }
 
-void PeriodicTick::end_cycle() { overran_ = started_ && monotonic_ns() >= next_ + period_; }
+void PeriodicTick::end_cycle() {
+    const std::int64_t now = monotonic_ns();
+    note_execution(now);
+    overran_ = started_ && now >= next_ + period_;
+}
 
 TickStats PeriodicTick::stats() const {
     const auto value = [](auto& counter) { return std::atomic_ref(counter).load(std::memory_order_relaxed); };

@@ -62,7 +62,8 @@ class PeriodicTick {
 
     /// Counts a tick that another object has waited for, planned for this time of CLOCK_MONOTONIC in ns. [tick-thread]
     void tick_at(std::int64_t planned);
-    /// Reports that the cycle after tick_at() has ended: if the next tick is already due, it is an overrun. [tick-thread]
+    /// Reports that the cycle has ended, which otherwise the next wait() does. Needed after tick_at(): if the next tick is
+    /// already due, it is an overrun. [tick-thread]
     void end_cycle();
 
     /// Reports that a cycle begins without wait(): the first cycle after rest(). [tick-thread]
@@ -89,6 +90,7 @@ class PeriodicTick {
     std::int64_t poll_until_next(std::int64_t now);
     void note_lateness(std::int64_t lateness);
     void note_due(std::int64_t when);
+    void note_execution(std::int64_t ended);
 
     const std::int64_t period_;
     const std::int64_t phase_; // from grid_origin; all times in ns
@@ -96,6 +98,7 @@ class PeriodicTick {
     TickPolling polling_;
     bool started_ = false, overran_ = false;
     std::int64_t next_ = 0;                     // planned time of the coming, then of the current tick
+    std::int64_t began_ = 0;                    // when the current cycle did; 0: there is none
     std::atomic<std::uint32_t> interrupted_{0}; // a futex
     const OwnTickSlot slot_;
 };

@@ -17,7 +17,7 @@ namespace tandem::rt {
 
 /// One periodic tick. The thread that ticks writes it with relaxed atomic operations.
 struct alignas(64) TickSlot {
-    static constexpr std::size_t octaves = 32; ///< classes of lateness: below 64 ns, below 128 ns, ...
+    static constexpr std::size_t octaves = 32; ///< classes of times: below 64 ns, below 128 ns, ...
     std::uint64_t period_ns;                   ///< 0: the slot is free; written last when the slot is taken
     std::uint64_t ticks, overruns, skipped;
     std::int64_t lateness_ns_last, lateness_ns_max;
@@ -27,10 +27,12 @@ struct alignas(64) TickSlot {
     /// gets no processor. 0: no tick is due, as before the first tick, while no component is active, and in lock-step.
     std::int64_t due_ns;
     crash::CallbackText callback; ///< the callback that the thread is in
+    std::int64_t execution_ns_max;
+    std::uint64_t execution[octaves]; ///< durations of the cycles
 };
 
 struct TickPage {
-    static constexpr char magic_text[8] = {'T', 'A', 'N', 'D', 'T', 'I', 'C', '2'};
+    static constexpr char magic_text[8] = {'T', 'A', 'N', 'D', 'T', 'I', 'C', '3'};
     static constexpr const char* file_name = "tandem-ticks";
     static constexpr std::size_t slots = 64;
     char magic[8];
@@ -53,8 +55,8 @@ class OwnTickSlot {
     std::optional<process::OwnNotice> unseen_;
 };
 
-/// Returns the index of the class that a lateness falls into.
-constexpr std::size_t lateness_octave(std::int64_t ns) {
+/// Returns the index of the class that a lateness or a duration falls into.
+constexpr std::size_t time_octave(std::int64_t ns) {
     std::size_t octave = 0;
     for (std::int64_t end = 64; ns >= end && octave + 1 < TickSlot::octaves; end *= 2) ++octave;
     return octave;

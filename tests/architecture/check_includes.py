@@ -58,7 +58,7 @@ ALLOWED = {
                               "host/rtm/runtime/transport", "host/rtm/runtime/upcall"],
     "host/rtm/runtime/execution": ["host/process", "host/rtm/runtime/manager", "host/rtm/runtime/naming", "host/crash", "host/rt"],
     "host/rtm/runtime/component": ["host/rtm/runtime/execution", "host/rtm/runtime/naming", "host/rtm/runtime/network", "host/rtm/runtime/sdo",
-                                   "host/rtm/runtime/upcall", "host/crash", "host/rt"],
+                                   "host/rtm/runtime/upcall", "host/crash", "host/process", "host/rt"],
     "host/rtm/program": ["host/rtm/runtime/*", "host/options", "host/plugin", "host/process", "host/rt",
                          "host/text", "shm/segment", "host/log"],
     "proxy/wire": [],

@@ -227,6 +227,11 @@ void add_ticks(const State& state, Text& text) {
     for_each_tick(state, [&](const std::string& labels, const TickState& tick) {
         text.octave_histogram(labels, tick.lateness);
     });
+    text.family("tandem_tick_execution_seconds", "histogram", "Time from when a tick began to its end.",
+                "seconds");
+    for_each_tick(state, [&](const std::string& labels, const TickState& tick) {
+        text.octave_histogram(labels, tick.execution);
+    });
 }
 
 void add_verdict(const State& state, Text& text) {

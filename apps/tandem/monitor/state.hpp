@@ -12,6 +12,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -123,11 +124,68 @@ struct TickState {
     std::size_t slot = 0; ///< distinguishes the ticks of a process
     std::uint64_t period_ns = 0, ticks = 0, overruns = 0, skipped = 0; ///< rt::TickStats
     std::uint64_t ticks_recently = 0, overruns_recently = 0;
-    std::array<std::uint64_t, rt::TickSlot::octaves> lateness{}; ///< by octave, since the first tick
-    std::uint64_t latest_ns = 0;                                 ///< maximum lateness since the first tick
+    std::array<std::uint64_t, rt::TickSlot::octaves> lateness{},
+        execution{};              ///< by octave, since the first tick
+    std::uint64_t latest_ns = 0;  ///< maximum lateness since the first tick
+    std::uint64_t longest_ns = 0; ///< maximum execution time since the first tick
     double ticks_per_s = 0;
-    Times recent_lateness{}; ///< upper ends of octaves
+    Times recent_lateness{}, recent_execution{}; ///< upper ends of octaves
     std::optional<HangState> hang{};
+};
+
+/// A component as its host lists it (host/process/published/inventory.hpp).
+struct HostComponent {
+    std::string name, type;
+    std::string
+        execution; ///< of an OPRoS component: periodic, aperiodic ...; empty: its contexts say when it runs
+    std::uint64_t period_ns = 0;
+    std::vector<std::string> names{}; ///< in name servers
+};
+
+/// An execution context of RTCs. The owner of a context with several components is a composite, or lends it to them.
+struct HostContext {
+    std::string owner, kind;
+    std::uint64_t period_ns = 0;
+    bool running = false;
+    std::vector<std::string> components{};
+};
+
+struct HostPort {
+    std::string component, name;
+    std::string kind;      ///< data, event, service
+    std::string direction; ///< input, output, provided, required
+    std::string type;
+    std::vector<std::string> connections{}; ///< ids, which connected ports have in common, also of two hosts
+};
+
+struct HostInventory {
+    std::vector<HostComponent> components{};
+    std::vector<HostContext> contexts{};
+    std::vector<HostPort> ports{};
+    std::uint64_t left_out = 0; ///< parts that the host could not list, or that could not be read
+};
+
+struct ThreadUsage {
+    std::uint32_t tid = 0;
+    std::string name;
+    double cpu_percent = 0; ///< of one processor, during the last second or so
+};
+
+struct HostUsage {
+    bool stopped = false; ///< by a signal or a debugger
+    double cpu_percent = 0;
+    std::uint64_t resident_bytes = 0;
+    unsigned thread_count = 0;
+    std::vector<ThreadUsage> threads{}; ///< the busiest ones
+};
+
+/// A running process that is on a link or has components.
+struct HostState {
+    std::uint32_t pid = 0;
+    std::string program;
+    HostUsage usage{};
+    std::vector<std::string> links{};
+    std::shared_ptr<const HostInventory> inventory{}; ///< null: it lists no parts, or they cannot be seen
 };
 
 /// A connection that a host refused between two of its ports.
@@ -160,6 +218,7 @@ struct NoticeState {
 struct State {
     std::uint64_t time_ms = 0; ///< since the epoch
     std::vector<LinkState> links;
+    std::vector<HostState> hosts{}; ///< those on links first, in the order of the links
     std::vector<TickState> ticks{};
     std::vector<RefusedConnectionState> refused{};
     std::vector<ComponentStatus> components{};

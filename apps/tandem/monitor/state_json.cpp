@@ -111,6 +111,48 @@ Json link_json(const LinkState& link) {
     return json;
 }
 
+Json usage_json(const HostUsage& usage) {
+    Json threads = Json::array();
+    for (const ThreadUsage& thread : usage.threads)
+        threads.push_back({{"tid", thread.tid}, {"name", thread.name}, {"cpu_percent", thread.cpu_percent}});
+    return {{"stopped", usage.stopped},
+            {"cpu_percent", usage.cpu_percent},
+            {"resident_bytes", usage.resident_bytes},
+            {"threads", usage.thread_count},
+            {"busiest_threads", std::move(threads)}};
+}
+
+Json inventory_json(const HostInventory& inventory) {
+    Json json{{"components", Json::array()}, {"contexts", Json::array()}, {"ports", Json::array()}};
+    for (const HostComponent& component : inventory.components)
+        json["components"].push_back({{"name", component.name},
+                                      {"type", component.type},
+                                      {"execution", component.execution},
+                                      {"period_ns", component.period_ns},
+                                      {"names", component.names}});
+    for (const HostContext& context : inventory.contexts)
+        json["contexts"].push_back({{"owner", context.owner},
+                                    {"kind", context.kind},
+                                    {"period_ns", context.period_ns},
+                                    {"running", context.running},
+                                    {"components", context.components}});
+    for (const HostPort& port : inventory.ports)
+        json["ports"].push_back({{"component", port.component},
+                                 {"name", port.name},
+                                 {"kind", port.kind},
+                                 {"direction", port.direction},
+                                 {"type", port.type},
+                                 {"connections", port.connections}});
+    return json;
+}
+
+Json host_json(const HostState& host) {
+    Json json{{"pid", host.pid}, {"program", host.program}, {"links", host.links}};
+    json.update(usage_json(host.usage));
+    json["inventory"] = host.inventory ? inventory_json(*host.inventory) : Json();
+    return json;
+}
+
 const char* name_of(process::ComponentState state) {
     return state == process::ComponentState::active  ? "active"
            : state == process::ComponentState::error ? "error"
@@ -162,6 +204,7 @@ std::string state_json(const State& state, const Verdict& verdict, const std::de
               {"cut", state.cut},
               {"control", control},
               {"links", Json::array()},
+              {"hosts", Json::array()},
               {"ticks", Json::array()},
               {"refused_connections", Json::array()},
               {"components", Json::array()},
@@ -170,6 +213,7 @@ std::string state_json(const State& state, const Verdict& verdict, const std::de
               {"unseen", state.unseen},
               {"events", Json::array()}};
     for (const LinkState& link : state.links) json["links"].push_back(link_json(link));
+    for (const HostState& host : state.hosts) json["hosts"].push_back(host_json(host));
     for (const TickState& tick : state.ticks)
         json["ticks"].push_back({{"name", tick.name},
                                  {"program", tick.program},
@@ -182,7 +226,9 @@ std::string state_json(const State& state, const Verdict& verdict, const std::de
                                  {"skipped", tick.skipped},
                                  {"latest_ns", tick.latest_ns},
                                  {"hang", hang_json(tick.hang)},
-                                 {"lateness", times_json(tick.recent_lateness)}});
+                                 {"lateness", times_json(tick.recent_lateness)},
+                                 {"longest_ns", tick.longest_ns},
+                                 {"execution", times_json(tick.recent_execution)}});
     for (const RefusedConnectionState& refused : state.refused)
         json["refused_connections"].push_back({{"program", refused.program},
                                                {"pid", refused.pid},

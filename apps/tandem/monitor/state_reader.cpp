@@ -113,6 +113,7 @@ State StateReader::read(const State& before) {
     std::erase_if(links_, [&](const auto& link) { return names.count(link.first) == 0; });
     read_links(names, before, state);
     if (stop_ != nullptr && *stop_) return state;
+    hosts_.read(state, shm::now_ns());
     ticks_.read(state, shm::now_ns());
     refusals_.read(state, shm::now_ns());
     statuses_.read(state, shm::now_ns());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "apps/tandem/monitor/host_files/host_reader.hpp"
 #include "apps/tandem/monitor/host_files/refusal_reader.hpp"
 #include "apps/tandem/monitor/host_files/status_reader.hpp"
 #include "apps/tandem/monitor/host_files/tick_reader.hpp"
@@ -21,11 +22,11 @@ class StateReader {
     /// Further links are not read. State::cut says so.
     static constexpr std::size_t max_links = 256;
 
-    /// Reads the links with these names, or all if `links` is empty.
+    /// Reads the links with these names and their hosts, or all links and hosts if `links` is empty.
     /// `stop`: ends a round early; null: nothing does. `bounds`: of each round.
     explicit StateReader(std::vector<std::string> links = {}, const std::atomic<bool>* stop = nullptr,
                          const RoundBounds& bounds = {})
-        : wanted_(links.begin(), links.end()), stop_(stop), bounds_(bounds) {}
+        : wanted_(links.begin(), links.end()), stop_(stop), bounds_(bounds), hosts_(links.empty()) {}
 
     /// Without /dev/shm, the returned state has an error. Links for which the round has no time are as in `before`, the
     /// previous state; the next round begins with them.
@@ -42,6 +43,7 @@ class StateReader {
     const RoundBounds bounds_;
     std::string first_; ///< link that the next round begins with
     std::map<std::string, LinkReader> links_;
+    HostReader hosts_;
     TickReader ticks_;
     RefusalReader refusals_;
     StatusReader statuses_;

@@ -230,7 +230,7 @@ Verdict judge(const State& state) {
     Findings findings;
     if (!state.error.empty())
         findings.add(Level::unreadable, state.error);
-    else if (state.links.empty())
+    else if (state.links.empty() && state.hosts.empty())
         findings.add(Level::no_link, "no link exists in /dev/shm; start the hosts");
     std::size_t seen = 0;
     for (const LinkState& link : state.links) {
@@ -239,15 +239,23 @@ Verdict judge(const State& state) {
         ++seen;
         judge_link(link, findings);
     }
+    for (const HostState& host : state.hosts)
+        if (host.usage.stopped && host.links.empty())
+            findings.add(Level::stopped, fmt::format("{} (pid {}) is stopped by a signal or a debugger",
+                                                     host.program, host.pid));
     judge_hangs(state.ticks, findings);
     for (const TickState& tick : state.ticks) judge_tick(tick, findings);
     judge_hosts(state, findings);
     judge_look(state, findings);
-    if (seen == 0 && !state.links.empty()) findings.add(Level::no_link, "all links belong to other users");
+    if (seen == 0 && !state.links.empty() && state.hosts.empty())
+        findings.add(Level::no_link, "all links belong to other users");
     Verdict verdict = std::move(findings).verdict();
     if (verdict.level == Level::well)
-        verdict.reason = fmt::format("{} {}: both hosts alive, nothing lost or late in the last {:.0f} s",
-                                     seen, seen == 1 ? "link" : "links", recent_s);
+        verdict.reason =
+            seen == 0 ? fmt::format("{} {} without a link: nothing late in the last {:.0f} s",
+                                    state.hosts.size(), state.hosts.size() == 1 ? "host" : "hosts", recent_s)
+                      : fmt::format("{} {}: both hosts alive, nothing lost or late in the last {:.0f} s",
+                                    seen, seen == 1 ? "link" : "links", recent_s);
     return verdict;
 }
 

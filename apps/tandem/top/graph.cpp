@@ -5,6 +5,7 @@
 #include "apps/tandem/output/print.hpp"
 #include "apps/tandem/top/commands.hpp"
 #include "apps/tandem/top/graph_dot.hpp"
+#include "apps/tandem/top/inside_connections.hpp"
 #include "apps/tandem/top/named_links.hpp"
 #include "host/process/run_command.hpp"
 
@@ -43,6 +44,24 @@ std::string arrow_line(const LinkState& link, Side owner, bool from_owner, const
                        rest);
 }
 
+/// Returns the components of the hosts, and the connections that no link carries.
+std::string inside_text(const monitor::State& state) {
+    std::string text;
+    const auto connections = inside_connections(state);
+    for (const auto& host : state.hosts) {
+        if (!host.inventory) continue;
+        std::string names;
+        for (const auto& component : host.inventory->components)
+            names += (names.empty() ? "" : ", ") + component.name;
+        text += fmt::format("{} (pid {}): {}\n", host.program, host.pid, names);
+        for (const auto& [from_host, to_host, from, to] : connections)
+            if (from_host == &host)
+                text += fmt::format("  {}.{} -> {}.{}{}\n", from->component, from->name, to->component,
+                                    to->name, from->kind == "data" ? "" : "  " + from->kind);
+    }
+    return text;
+}
+
 std::string graph_text(const monitor::State& state) {
     std::string text;
     for (const auto& link : state.links) {
@@ -59,10 +78,11 @@ std::string graph_text(const monitor::State& state) {
                                (port.kind == "required" || port.kind == "provided" ? "  service" : "") +
                                    (port.mismatch.empty() ? std::string() : "  " + port.mismatch));
     }
+    text += inside_text(state);
     for (const auto& refused : state.refused)
         text += fmt::format("{} (pid {}): {} and {} are not connected: {}\n", refused.program, refused.pid,
                             refused.from, refused.to, refused.reason);
-    return text.empty() ? "no links are running\n" : text;
+    return text.empty() ? "no hosts are running\n" : text;
 }
 
 /// Runs Graphviz. Throws std::runtime_error if it fails.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/top/graph_dot.hpp"
 #include "apps/tandem/output/format.hpp"
+#include "apps/tandem/top/inside_connections.hpp"
 
 #include "host/text/quote.hpp"
 
@@ -47,6 +48,10 @@ std::string refused_node(const monitor::RefusedConnectionState& refused, const s
     return text::quote_dot(std::to_string(refused.pid) + " " + component_of(end));
 }
 
+std::string inside_node(const monitor::HostState& host, const std::string& component) {
+    return text::quote_dot(std::to_string(host.pid) + " " + component);
+}
+
 struct Box {
     std::string label;
     bool dead = false;
@@ -72,6 +77,14 @@ std::map<std::string, Box> boxes_of(const monitor::State& state) {
         };
         for (const auto& port : link.ports) add(port.owner, port.component);
         for (const auto& port : link.shared_ports) add(port.owner, port.component);
+    }
+    for (const auto& host : state.hosts) {
+        if (!host.inventory) continue;
+        Box& box = boxes[std::to_string(host.pid)];
+        if (box.label.empty()) box.label = fmt::format("{} {}", host.program, host.pid);
+        for (const auto& component : host.inventory->components)
+            box.nodes.insert(fmt::format("{} [label={} shape=box]", inside_node(host, component.name),
+                                         text::quote_dot(component.name)));
     }
     for (const auto& refused : state.refused)
         for (const auto& end : {refused.from, refused.to})
@@ -125,6 +138,10 @@ std::string graph_dot(const monitor::State& state) {
     }
     for (const auto& link : state.links)
         if (link.readable) text += edges_of(link);
+    for (const auto& [from_host, to_host, from, to] : inside_connections(state))
+        text += fmt::format("  {} -> {} [label={}{}]\n", inside_node(*from_host, from->component),
+                            inside_node(*to_host, to->component), text::quote_dot(from->name),
+                            from->kind == "service" ? " style=dashed" : "");
     for (const auto& refused : state.refused)
         text += fmt::format("  {} -> {} [label={} color=red fontcolor=red]\n",
                             refused_node(refused, refused.from), refused_node(refused, refused.to),

@@ -7,14 +7,11 @@
 #include "apps/tandem/output/table.hpp"
 #include "apps/tandem/top/commands.hpp"
 #include "apps/tandem/top/named_links.hpp"
-#include "shm/os/clock.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <fmt/format.h>
-#include <fstream>
-#include <map>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -25,79 +22,6 @@
 
 namespace tandem::command {
 namespace {
-
-/// A host's use of the machine according to proc(5).
-struct HostUsage {
-    std::uint32_t pid = 0;
-    std::string program;
-    double cpu_percent = 0; ///< of one core, since the last read; 0 at the first
-    std::uint64_t resident_bytes = 0;
-    unsigned threads = 0;
-    std::vector<std::string> links;
-};
-
-/// proc(5), /proc/PID/stat: user and system time in clock ticks are fields 14 and 15, threads 20, resident pages 24.
-/// Field 2, the name, is in parentheses and may contain parentheses.
-bool read_stat(std::uint32_t pid, std::uint64_t& cpu_ns, HostUsage& usage) {
-    std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
-    std::string line;
-    std::getline(file, line);
-    const auto name_end = line.rfind(')');
-    if (name_end == std::string::npos) return false;
-    std::istringstream fields(line.substr(name_end + 2));
-    std::string skipped;
-    for (int field = 3; field < 14; ++field) fields >> skipped;
-    std::uint64_t user = 0, system = 0, resident = 0;
-    fields >> user >> system;
-    for (int field = 16; field < 20; ++field) fields >> skipped;
-    fields >> usage.threads;
-    for (int field = 21; field < 24; ++field) fields >> skipped;
-    fields >> resident;
-    if (!fields) return false;
-    const auto ticks_per_s = static_cast<std::uint64_t>(sysconf(_SC_CLK_TCK));
-    cpu_ns = (user + system) * 1'000'000'000 / ticks_per_s;
-    usage.resident_bytes = resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
-    return true;
-}
-
-/// Reads the usage of hosts repeatedly. [one thread]
-class HostUsageReader {
-  public:
-    /// Returns the usage of the running processes on these links, by pid. `now_ns`: CLOCK_MONOTONIC.
-    std::vector<HostUsage> read(const monitor::State& state, std::uint64_t now_ns) {
-        std::map<std::uint32_t, HostUsage> hosts;
-        for (const auto& link : state.links)
-            for (const auto& side : link.sides) {
-                if (side.state != shm::PeerState::alive && side.state != shm::PeerState::stopped) continue;
-                if (side.pid == 0) continue; // in another pid namespace, where /proc does not show it
-                HostUsage& host = hosts[side.pid];
-                host.pid = side.pid;
-                host.program = side.program;
-                if (host.links.empty() || host.links.back() != link.name) host.links.push_back(link.name);
-            }
-        std::vector<HostUsage> usages;
-        std::map<std::uint32_t, Sample> samples;
-        for (auto& [pid, host] : hosts) {
-            Sample now{now_ns, 0};
-            if (!read_stat(pid, now.cpu_ns, host)) continue; // the process is gone
-            if (const auto before = samples_.find(pid);
-                before != samples_.end() && now_ns > before->second.time_ns)
-                host.cpu_percent =
-                    100.0 * static_cast<double>(now.cpu_ns - std::min(now.cpu_ns, before->second.cpu_ns)) /
-                    static_cast<double>(now_ns - before->second.time_ns);
-            samples[pid] = now;
-            usages.push_back(std::move(host));
-        }
-        samples_ = std::move(samples);
-        return usages;
-    }
-
-  private:
-    struct Sample {
-        std::uint64_t time_ns = 0, cpu_ns = 0;
-    };
-    std::map<std::uint32_t, Sample> samples_;
-};
 
 using monitor::LinkState;
 using monitor::State;
@@ -116,13 +40,14 @@ std::string host_of(const LinkState& link, shm::Side side) {
     return host.program.empty() ? monitor::model_of(link, side) : host.program;
 }
 
-std::string hosts_table(const std::vector<HostUsage>& hosts) {
+std::string hosts_table(const std::vector<monitor::HostState>& hosts) {
     Table table({"HOST", ">PID", ">CPU %", ">MEMORY", ">THREADS", "LINKS"});
     for (const auto& host : hosts) {
         std::string links;
         for (const auto& link : host.links) links += (links.empty() ? "" : ", ") + link;
-        table.add_row({host.program, std::to_string(host.pid), fmt::format("{:.1f}", host.cpu_percent),
-                       format_bytes(host.resident_bytes), std::to_string(host.threads), links});
+        table.add_row({host.program, std::to_string(host.pid), fmt::format("{:.1f}", host.usage.cpu_percent),
+                       format_bytes(host.usage.resident_bytes), std::to_string(host.usage.thread_count),
+                       links});
     }
     return table.empty() ? "" : table.text() + "\n";
 }
@@ -146,12 +71,14 @@ std::string ports_table(const State& state) {
 }
 
 std::string ticks_table(const State& state) {
-    Table table({"TICKS OF", ">PID", ">PERIOD ms", ">TICKS/S", ">LATEST us", ">OVERRUNS", ">SKIPPED"});
+    Table table({"TICKS OF", ">PID", ">PERIOD ms", ">TICKS/S", ">CYCLE us p50 / p99 / max", ">LATEST us",
+                 ">OVERRUNS", ">SKIPPED"});
     for (const auto& tick : state.ticks)
         table.add_row({tick.name, std::to_string(tick.pid),
                        fmt::format("{:g}", static_cast<double>(tick.period_ns) / 1e6),
                        tick.hang ? fmt::format("hangs {:.0f} s", tick.hang->seconds)
                                  : fmt::format("{:.1f}", tick.ticks_per_s),
+                       times_text(tick.recent_execution),
                        fmt::format("{:.1f}", static_cast<double>(tick.latest_ns) / 1000),
                        std::to_string(tick.overruns), std::to_string(tick.skipped)});
     return table.empty() ? "" : table.text() + "\n";
@@ -181,18 +108,10 @@ std::string fitted(const std::string& text) {
     return fitting;
 }
 
-std::string json_of(const State& state, const std::vector<HostUsage>& hosts) {
+std::string json_of(const State& state) {
     auto json = nlohmann::ordered_json::parse(monitor::state_json(state, monitor::judge(state), {}, nullptr));
     json.erase("events"); // only the monitor keeps events
     json.erase("control");
-    json["hosts"] = nlohmann::ordered_json::array();
-    for (const auto& host : hosts)
-        json["hosts"].push_back({{"pid", host.pid},
-                                 {"program", host.program},
-                                 {"cpu_percent", host.cpu_percent},
-                                 {"resident_bytes", host.resident_bytes},
-                                 {"threads", host.threads},
-                                 {"links", host.links}});
     return json.dump() + "\n";
 }
 
@@ -200,25 +119,23 @@ std::string json_of(const State& state, const std::vector<HostUsage>& hosts) {
 
 int top(const TopOptions& options) {
     monitor::StateReader reader(options.links);
-    HostUsageReader usage;
     const bool terminal = isatty(STDOUT_FILENO) != 0 && !options.json;
     State state = reader.read(); // rates and shares need two reads
     if (!state.error.empty()) throw std::runtime_error(state.error);
     require_links(state, options.links);
-    usage.read(state, shm::now_ns());
     for (std::uint64_t picture = 0; options.count == 0 || picture < options.count; ++picture) {
         std::this_thread::sleep_for(std::chrono::duration<double>(options.period_s));
         state = reader.read(state);
         if (!state.error.empty()) throw std::runtime_error(state.error);
-        const auto hosts = usage.read(state, shm::now_ns());
         if (options.json) {
-            print_text(json_of(state, hosts));
+            print_text(json_of(state));
             continue;
         }
         const auto verdict = monitor::judge(state);
         const std::string text = verdict.text + (verdict.reason.empty() ? "" : ": " + verdict.reason) + "\n" +
-                                 (state.cut.empty() ? "" : state.cut + "\n") + "\n" + hosts_table(hosts) +
-                                 ports_table(state) + ticks_table(state) + calls_table(state);
+                                 (state.cut.empty() ? "" : state.cut + "\n") + "\n" +
+                                 hosts_table(state.hosts) + ports_table(state) + ticks_table(state) +
+                                 calls_table(state);
         if (terminal) print_data(clear_screen);
         print_text(terminal ? fitted(text) : text + "\n");
     }

@@ -17,9 +17,10 @@ void add_top(CLI::App& tandem, Action& selected) {
         "ports\n"
         "with their rate over 2 s, the age of messages when read over 5 s, messages lost since the segment "
         "was\n"
-        "created, messages waiting, and time since the last message; ticks with the largest delay since "
-        "they\n"
-        "began; calls. Reads shared memory and /proc without notifying the hosts. On a terminal, updates in\n"
+        "created, messages waiting, and time since the last message; ticks with the duration of their cycles "
+        "over\n"
+        "5 s and the largest delay since they began; calls. Reads shared memory and /proc without notifying "
+        "the hosts. On a terminal, updates in\n"
         "place until Ctrl-C; otherwise prints one update after the other.\n"
         "Exit code 1 if the link does not exist.");
     command->add_option("LINK", options->links, "names of links (all)");
@@ -37,7 +38,8 @@ void add_graph(CLI::App& tandem, Action& selected) {
     CLI::App* command = add_command(
         tandem, "graph", "Shows the components and ports that running links connect",
         "Shows hosts, the components that they share, and the ports between them with messages per second,\n"
-        "measured over half a second. In drawings, red ports cannot be connected, grey ports have been "
+        "measured over half a second; then all components of each host, and the connections between them.\n"
+        "In drawings, red ports cannot be connected, grey ports have been "
         "silent\n"
         "for 2 s, and dashed lines are services.\n"
         "Exit code 1 if the link does not exist, or if --svg finds no dot (package graphviz).");

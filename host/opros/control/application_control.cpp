@@ -28,12 +28,6 @@ const char* state_name(LifecycleState state) {
     return names[state];
 }
 
-const char* type_name(engine::ExecutionType type) {
-    static const char* const names[] = {"periodic", "periodic-shared", "aperiodic", "aperiodic-loop",
-                                        "passive"};
-    return names[static_cast<int>(type)];
-}
-
 /// Returns for example "onStart has taken 1.3 s so far", or an empty text.
 std::string running_callback(const ComponentHost& component) {
     const auto running = crash::find_running_callback(&component);
@@ -51,7 +45,7 @@ json describe(ComponentHost& component) {
             {"type", component.profile().name},
             {"state", state_name(component.component().getStatus())},
             {"callback", running_callback(component)},
-            {"executor", type_name(component.profile().execution_type)},
+            {"executor", name_of(component.profile().execution_type)},
             {"period_ms", period_ms(component.profile())}};
 }
 
@@ -89,7 +83,7 @@ ApplicationControl::ApplicationControl(engine::Application& application, const s
     : application_(application), connections_(application.connections()),
       profile_(std::filesystem::absolute(profile).lexically_normal().string()) {
     for (const auto& component : application_.components())
-        ports_.emplace(component->name(), std::make_unique<PortList>(component->component()));
+        ports_.emplace(component->name(), std::make_unique<PortList>(*component));
 }
 
 std::string ApplicationControl::answer(const std::string& request) {

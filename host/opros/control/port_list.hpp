@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Component.h>
+#include "host/opros/engine/execute/component_host.hpp"
+
 #include <PortListener.h>
 
 #include <map>
@@ -11,11 +12,12 @@
 
 namespace tandem::control {
 
-/// The present ports of a component. While they are described, a thread that removes one of them waits.
+/// The present ports of a component. While they are described, a thread that removes one of them waits. Lists them for
+/// other processes (host/process/published/inventory.hpp).
 class PortList final : public PortListener {
   public:
     /// Follows the ports of the component until the destruction of this object.
-    explicit PortList(Component& component);
+    explicit PortList(engine::ComponentHost& component);
     ~PortList() override;
     PortList(const PortList&) = delete;
     PortList& operator=(const PortList&) = delete;
@@ -27,7 +29,10 @@ class PortList final : public PortListener {
     void portRemoved(const std::string& name, Port& port) override;
 
   private:
-    Component& component_;
+    void add(const std::string& name, Port& port);
+    void remove(const std::string& name);
+
+    engine::ComponentHost& component_;
     mutable std::mutex mutex_; ///< guards ports_; held while a port is used
     std::map<std::string, Port*> ports_;
 };

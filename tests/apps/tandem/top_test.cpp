@@ -111,3 +111,22 @@ TEST_CASE("a drawing marks what is dead, silent, damaged or cannot be connected,
         dot, R"("22 Hand0" -> "11 link chair" [label="odd: a type without members" style=dashed color=red)"));
     CHECK(has(dot, "label=\"rtm_host 22, dead\"\n    color=red"));
 }
+
+TEST_CASE("a graph has the components of every host, and the connections that no link carries") {
+    monitor::HostInventory inventory;
+    inventory.components = {{"Arm0", "Arm", ""}, {"Sensor0", "Sensor", ""}};
+    inventory.ports = {{"Arm0", "in", "data", "input", "TimedLong", {"1"}},
+                       {"Arm0", "tool", "service", "required", "Tool", {"2"}},
+                       {"Sensor0", "out", "data", "output", "TimedLong", {"1", "3"}}};
+    monitor::HostInventory other;
+    other.components = {{"Hand0", "Hand", ""}};
+    other.ports = {{"Hand0", "tool", "service", "provided", "Tool", {"2"}}};
+    monitor::State state;
+    state.hosts = {{44, "rtm_host", {}, {}, std::make_shared<monitor::HostInventory>(inventory)},
+                   {55, "rtm_host", {}, {}, std::make_shared<monitor::HostInventory>(other)}};
+    const std::string dot = graph_dot(state);
+    CHECK(has(dot, "label=\"rtm_host 44\""));
+    CHECK(has(dot, R"("44 Sensor0" [label="Sensor0" shape=box])"));
+    CHECK(has(dot, R"("44 Sensor0" -> "44 Arm0" [label="out"])"));
+    CHECK(has(dot, R"("44 Arm0" -> "55 Hand0" [label="tool" style=dashed])"));
+}

@@ -76,6 +76,36 @@ TEST_CASE("the page tells when the next tick is due, and that none is") {
     CHECK(slot_named("Plant0")->due_ns == 0);
 }
 
+TEST_CASE("each cycle adds its duration to the page, once") {
+    const auto cycles_of = [](const std::string& name) {
+        const TickSlot slot = slot_named(name).value();
+        std::uint64_t cycles = 0;
+        for (const auto count : slot.execution) cycles += count;
+        return cycles;
+    };
+    PeriodicTick tick({.period = 1ms, .name = "Plant0"});
+    tick.wait();
+    CHECK(cycles_of("Plant0") == 0);
+    const auto began = monotonic_ns();
+    while (monotonic_ns() < began + 100'000) continue; // the cycle
+    tick.wait();                                       // ends it
+    CHECK(cycles_of("Plant0") == 1);
+    CHECK(slot_named("Plant0")->execution_ns_max >= 100'000);
+    tick.end_cycle();
+    CHECK(cycles_of("Plant0") == 2);
+    tick.wait();
+    CHECK(cycles_of("Plant0") == 2);
+    tick.rest();
+    tick.begin_cycle();
+    tick.end_cycle();
+    CHECK(cycles_of("Plant0") == 3);
+
+    PeriodicTick shared({.period = 1ms, .name = "Arm"});
+    shared.tick_at(monotonic_ns());
+    shared.end_cycle();
+    CHECK(cycles_of("Arm") == 1);
+}
+
 TEST_CASE("ticks beyond the room of the page count for themselves alone") {
     std::vector<std::unique_ptr<PeriodicTick>> ticks;
     for (std::size_t i = 0; i < TickPage::slots + 3; ++i)
@@ -90,11 +120,11 @@ TEST_CASE("ticks beyond the room of the page count for themselves alone") {
     CHECK(slot_named(std::string(79, 'n')));
 }
 
-TEST_CASE("a lateness falls into the octave that it does not reach the end of") {
-    CHECK(lateness_octave(-5) == 0);
-    CHECK(lateness_octave(63) == 0);
-    CHECK(lateness_octave(64) == 1);
-    CHECK(lateness_octave(127) == 1);
-    CHECK(lateness_octave(1'000'000) == 14);
-    CHECK(lateness_octave(INT64_MAX) == TickSlot::octaves - 1);
+TEST_CASE("a time falls into the octave that it does not reach the end of") {
+    CHECK(time_octave(-5) == 0);
+    CHECK(time_octave(63) == 0);
+    CHECK(time_octave(64) == 1);
+    CHECK(time_octave(127) == 1);
+    CHECK(time_octave(1'000'000) == 14);
+    CHECK(time_octave(INT64_MAX) == TickSlot::octaves - 1);
 }

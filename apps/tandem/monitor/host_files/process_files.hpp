@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "apps/tandem/monitor/state.hpp"
 #include "apps/tandem/output/format.hpp"
 #include "host/process/file_descriptor.hpp"
 
@@ -11,8 +12,18 @@
 
 namespace tandem::monitor {
 
+/// A process whose files are read.
+struct RunningHost {
+    std::uint32_t pid = 0;
+    std::string program;
+};
+
+/// Returns the hosts of the links that are alive, and those without a link, each once. Stopped ones are left out: what they
+/// publish does not change.
+std::vector<RunningHost> running_hosts(const State& state);
+
 /// Opens up to `most` memory files of a process that have this name and size in bytes. Returns none of another user's
-/// process.
+/// process, and none that the process only reads.
 std::vector<process::FileDescriptor> open_memory_files(std::uint32_t pid, const char* name, std::size_t size,
                                                        std::size_t most);
 

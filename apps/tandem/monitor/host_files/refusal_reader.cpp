@@ -41,10 +41,10 @@ void RefusalReader::read_process(std::uint32_t pid, const std::string& program, 
 
 void RefusalReader::read(State& state, std::uint64_t now_ns) {
     std::set<std::uint32_t> present;
-    for (const LinkState& link : state.links)
-        for (const SideState& side : link.sides)
-            if (side.state == shm::PeerState::alive && side.pid != 0 && present.insert(side.pid).second)
-                read_process(side.pid, side.program, state, now_ns);
+    for (const auto& [pid, program] : running_hosts(state)) {
+        present.insert(pid);
+        read_process(pid, program, state, now_ns);
+    }
     std::erase_if(processes_, [&](const auto& process) { return present.count(process.first) == 0; });
 }
 

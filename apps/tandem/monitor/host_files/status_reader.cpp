@@ -71,46 +71,57 @@ void StatusReader::look(Process& process, std::uint32_t pid, std::uint64_t now_n
     process.notices = open_memory_files(pid, Notices::file_name, sizeof(Notices), max_files);
 }
 
-void StatusReader::read_process(const LinkState& link, const SideState& side, State& state,
+void StatusReader::read_process(std::uint32_t pid, const std::string& program, State& state,
                                 std::uint64_t now_ns) {
-    Process& process = processes_[side.pid];
-    look(process, side.pid, now_ns);
-    if (!process.unseen.empty())
-        state.unseen.push_back(
-            fmt::format("link {}: ticks and components of {} (pid {}) cannot be seen: {}; run "
-                        "this as the user of the host, which must not have file capabilities",
-                        link.name, side.program, side.pid, process.unseen));
+    Process& process = processes_[pid];
+    look(process, pid, now_ns);
     std::map<std::string, ComponentStatus> states;
     for (const auto& descriptor : process.components)
         if (const auto file = read_file<ComponentStates>(descriptor)) {
             add_components(*file, now_ns, states);
             if (file->left_out != 0)
                 state.unseen.push_back(
-                    fmt::format("{} (pid {}): the states of {} further components are not shown",
-                                side.program, side.pid, file->left_out));
+                    fmt::format("{} (pid {}): the states of {} further components are not shown", program,
+                                pid, file->left_out));
         }
     for (auto& [name, component] : states)
-        state.components.push_back({side.program, side.pid, name, component.state, component.in_cycle_s});
+        state.components.push_back({program, pid, name, component.state, component.in_cycle_s});
     for (const auto& descriptor : process.notices)
         if (const auto file = read_file<Notices>(descriptor))
             for (const auto& place : file->place)
                 if (place.kind != 0)
-                    state.notices.push_back({side.program, side.pid, static_cast<NoticeKind>(place.kind),
-                                             printable_text(place.text)});
+                    state.notices.push_back(
+                        {program, pid, static_cast<NoticeKind>(place.kind), printable_text(place.text)});
 }
 
-void StatusReader::read(State& state, std::uint64_t now_ns) {
-    std::set<std::uint32_t> present;
+/// Notes the hosts of links whose files this process cannot see.
+void StatusReader::note_unseen(const State& state, std::vector<std::string>& unseen) const {
+    std::set<std::uint32_t> noted;
     for (const LinkState& link : state.links)
         for (const SideState& side : link.sides) {
             if (side.state != shm::PeerState::alive) continue;
             if (side.pid_elsewhere != 0)
-                state.unseen.push_back(fmt::format(
+                unseen.push_back(fmt::format(
                     "link {}: ticks and components of the host with {} cannot be seen; run this in its "
                     "container, too",
                     link.name, command::format_pid(side.pid, side.pid_elsewhere)));
-            if (side.pid != 0 && present.insert(side.pid).second) read_process(link, side, state, now_ns);
+            const auto process = processes_.find(side.pid);
+            if (process != processes_.end() && !process->second.unseen.empty() &&
+                noted.insert(side.pid).second)
+                unseen.push_back(
+                    fmt::format("link {}: ticks and components of {} (pid {}) cannot be seen: {}; run "
+                                "this as the user of the host, which must not have file capabilities",
+                                link.name, side.program, side.pid, process->second.unseen));
         }
+}
+
+void StatusReader::read(State& state, std::uint64_t now_ns) {
+    std::set<std::uint32_t> present;
+    for (const auto& [pid, program] : running_hosts(state)) {
+        present.insert(pid);
+        read_process(pid, program, state, now_ns);
+    }
+    note_unseen(state, state.unseen);
     std::erase_if(processes_, [&](const auto& process) { return present.count(process.first) == 0; });
 }
 

@@ -24,7 +24,8 @@ class StatusReader {
         std::string unseen{}; ///< why its files cannot be listed
     };
     void look(Process& process, std::uint32_t pid, std::uint64_t now_ns);
-    void read_process(const LinkState& link, const SideState& side, State& state, std::uint64_t now_ns);
+    void note_unseen(const State& state, std::vector<std::string>& unseen) const;
+    void read_process(std::uint32_t pid, const std::string& program, State& state, std::uint64_t now_ns);
 
     std::map<std::uint32_t, Process> processes_;
 };

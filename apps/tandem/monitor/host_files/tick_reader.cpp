@@ -30,6 +30,27 @@ std::uint64_t percentile_of(const std::vector<std::pair<std::uint64_t, std::uint
 }
 
 std::uint64_t more(std::uint64_t before, std::uint64_t now) { return now > before ? now - before : 0; }
+std::uint64_t at_least_0(std::int64_t ns) { return ns > 0 ? static_cast<std::uint64_t>(ns) : 0; }
+
+using Octaves = std::uint64_t[rt::TickSlot::octaves];
+
+/// Returns the times that were counted between two reads. `longest_ns` is the longest time ever: an octave ends at up to
+/// twice the measured value.
+Times times_between(const Octaves& before, const Octaves& now, std::uint64_t longest_ns) {
+    Times times;
+    for (std::size_t i = 0; i < rt::TickSlot::octaves; ++i)
+        if (const auto count = more(before[i], now[i]); count != 0) {
+            times.octaves.emplace_back(octave_end(i), count);
+            times.samples += count;
+        }
+    const auto percentile = [&](double share) {
+        return std::min(percentile_of(times.octaves, times.samples, share), longest_ns);
+    };
+    times.p50_ns = percentile(0.5);
+    times.p99_ns = percentile(0.99);
+    times.max_ns = percentile(1);
+    return times;
+}
 
 /// Returns whether it is a transition callback of an RTC, which the execution context runs within a cycle.
 bool is_transition(const std::string& callback) {
@@ -66,24 +87,15 @@ TickState TickReader::describe(const std::deque<Sample>& samples) const {
     tick.skipped = now.skipped;
     tick.ticks_recently = more(before.ticks, now.ticks);
     std::copy(std::begin(now.lateness), std::end(now.lateness), tick.lateness.begin());
+    std::copy(std::begin(now.execution), std::end(now.execution), tick.execution.begin());
     tick.overruns_recently = more(before.overruns, now.overruns);
-    tick.latest_ns = now.lateness_ns_max > 0 ? static_cast<std::uint64_t>(now.lateness_ns_max) : 0;
+    tick.latest_ns = at_least_0(now.lateness_ns_max);
+    tick.longest_ns = at_least_0(now.execution_ns_max);
     if (now_ns > from_ns)
         tick.ticks_per_s =
             static_cast<double>(more(before.ticks, now.ticks)) * 1e9 / static_cast<double>(now_ns - from_ns);
-    Times& times = tick.recent_lateness;
-    for (std::size_t i = 0; i < rt::TickSlot::octaves; ++i)
-        if (const auto count = more(before.lateness[i], now.lateness[i]); count != 0) {
-            times.octaves.emplace_back(octave_end(i), count);
-            times.samples += count;
-        }
-    // An octave ends at up to twice the measured value, but no tick was later than the latest one.
-    const auto percentile = [&](double share) {
-        return std::min(percentile_of(times.octaves, times.samples, share), tick.latest_ns);
-    };
-    times.p50_ns = percentile(0.5);
-    times.p99_ns = percentile(0.99);
-    times.max_ns = percentile(1);
+    tick.recent_lateness = times_between(before.lateness, now.lateness, tick.latest_ns);
+    tick.recent_execution = times_between(before.execution, now.execution, tick.longest_ns);
     return tick;
 }
 
@@ -122,10 +134,10 @@ void TickReader::read_process(std::uint32_t pid, const std::string& program, Sta
 
 void TickReader::read(State& state, std::uint64_t now_ns) {
     std::set<std::uint32_t> present;
-    for (const LinkState& link : state.links)
-        for (const SideState& side : link.sides)
-            if (side.state == shm::PeerState::alive && side.pid != 0 && present.insert(side.pid).second)
-                read_process(side.pid, side.program, state, now_ns);
+    for (const auto& [pid, program] : running_hosts(state)) {
+        present.insert(pid);
+        read_process(pid, program, state, now_ns);
+    }
     std::erase_if(processes_, [&](const auto& process) { return present.count(process.first) == 0; });
     std::erase_if(samples_,
                   [&](const auto& sample) { return present.count(std::get<0>(sample.first)) == 0; });

@@ -24,11 +24,12 @@ export function rowsOf({ticks, components}) {
 }
 
 function tickCells(tick) {
-  if (tick === null) return Array(8).fill(['', '']);
+  if (tick === null) return Array(11).fill(['', '']);
   return [
     [duration(tick.period_ns), 'number'],
     tick.hang ? [`! hangs ${duration(tick.hang.seconds * 1e9)}`, 'number bad'] : [number(tick.ticks_per_s), 'number'],
     time(tick.lateness, 'p50_ns'), time(tick.lateness, 'p99_ns'), [duration(tick.latest_ns), 'number'], {histogram: tick.lateness},
+    time(tick.execution, 'p50_ns'), time(tick.execution, 'p99_ns'), [duration(tick.longest_ns), 'number'],
     [tick.overruns_recently > 0 ? `◷ ${tick.overruns}` : String(tick.overruns), tick.overruns_recently > 0 ? 'number warn' : 'number'],
     [String(tick.skipped), 'number'],
   ];
@@ -39,7 +40,8 @@ export class TickTable {
     const of = (value) => ({tick}) => tick === null ? null : value(tick);
     this.sorter = new Sorter(find('ticks'), {0: ({name}) => name, 1: ({state}) => state ?? '', 2: ({program, pid}) => `${program} ${pid}`,
       3: of((tick) => tick.period_ns), 4: of((tick) => tick.ticks_per_s), 5: of((tick) => tick.lateness?.p50_ns),
-      6: of((tick) => tick.lateness?.p99_ns), 7: of((tick) => tick.latest_ns), 9: of((tick) => tick.overruns), 10: of((tick) => tick.skipped)},
+      6: of((tick) => tick.lateness?.p99_ns), 7: of((tick) => tick.latest_ns), 9: of((tick) => tick.execution?.p50_ns),
+      10: of((tick) => tick.execution?.p99_ns), 11: of((tick) => tick.longest_ns), 12: of((tick) => tick.overruns), 13: of((tick) => tick.skipped)},
     () => this.show(this.state));
     this.list = new KeyedList(find('ticks').tBodies[0], () => make('tr'), (row, item) => fill(row, 0, [
       [item.name || '–', ''], [stateSigns[item.state] ?? '–', item.state === 'error' ? 'bad' : item.state === 'inactive' ? 'warn' : ''],

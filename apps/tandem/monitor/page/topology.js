@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Selects the contents of the graph: hosts with their components and ports, and the edges between them.
+import {addInside} from './inside.js';
 import {keyOfPort} from './tables.js';
 
 /** Limit per link; further ports are only in the view with the tables. */
 const mostPorts = 40;
-/** Limit per host of components that share no port. */
-const mostInside = 40;
 /** With more ports than this in all links, one line represents the ports of a component and kind. */
 const mostDrawn = 160;
 const sides = ['first', 'second'];
@@ -103,43 +102,27 @@ class Builder {
   }
 }
 
-/** Adds the state and period of each component to its hosts, and the components that share no port with another model, failed ones
- * first. Returns how many are left out. */
-function addComponents(hosts, rows) {
-  let hidden = 0;
-  for (const host of hosts) {
-    const inside = [];
-    for (const row of rows) {
-      if (row.pid !== host.pid) continue;
-      const shared = host.components.filter((component) => !component.mirror && component.base === row.name);
-      for (const component of shared) component.row = row;
-      if (shared.length === 0 && row.state !== null) inside.push(row);
-    }
-    hidden += Math.max(0, inside.length - mostInside);
-    const urgency = inside.length > mostInside ? ({state, tick}) => state === 'error' || tick?.hang ? 1 : 0 : () => 0;
-    for (const row of inside.sort((a, b) => urgency(b) - urgency(a)).slice(0, mostInside))
-      host.components.push({id: `${host.id}/inside/${row.key}`, name: row.name, base: row.name, mirror: false, inside: true, ports: [], row});
-  }
-  return hidden;
-}
+/** Whether the host tells more of a component than its name. */
+export const hasDetail = ({row, part}) => Boolean(row || part);
 
 /** `key` changes when a part comes or goes, but not with rates and states. `note`: omitted parts. */
-export function topologyOf(links, refused, rows = []) {
+export function topologyOf(links, refused, rows = [], listed = []) {
   const builder = new Builder(refused);
   const total = links.reduce((count, link) => count + (link.readable ? link.ports.length + link.shared_ports.length : 0), 0);
   const together = total > mostDrawn;
   for (const link of links) builder.addLink(link, together);
   const hosts = [...builder.hosts.values()].map((host) => ({...host, components: [...host.components.values()]}));
-  const inside = addComponents(hosts, rows);
+  const inside = addInside(hosts, listed, rows);
+  const edges = [...builder.edges, ...inside.edges];
   // For a host with several links, adds the link's name to the component.
   for (const {components} of hosts)
     if (new Set(components.filter(({inside}) => !inside).map((component) => component.link)).size > 1)
       for (const component of components.filter(({inside}) => !inside)) component.name += `, link ${component.link}`;
   const key = JSON.stringify([hosts.map((host) => [host.id, host.title, host.components.map((component) =>
-    [component.id, Boolean(component.row), component.ports.map((port) => [port.id, port.mismatch])])]), builder.edges.map((edge) => edge.id)]);
+    [component.id, hasDetail(component), component.ports.map((port) => [port.id, port.side, port.mismatch])])]), edges.map((edge) => edge.id)]);
   const notes = [...builder.unreadable];
   if (together) notes.push(`${total} ports: the ports of a component are drawn as one; the view "Ports and calls" lists each`);
   if (builder.hidden > 0) notes.push(`${builder.hidden} more ports are listed in the view "Ports and calls"`);
-  if (inside > 0) notes.push(`${inside} more components are listed in the view "Components"`);
-  return {hosts, edges: builder.edges, key, note: notes.join('; ')};
+  notes.push(...inside.notes);
+  return {hosts, edges, key, note: notes.join('; ')};
 }

@@ -3,6 +3,7 @@
 
 #include "host/log/log.hpp"
 #include "host/opros/engine/connect/make_connection.hpp"
+#include "host/process/published/inventory.hpp"
 
 #include <algorithm>
 
@@ -58,9 +59,15 @@ void ProfileConnections::connect_all(std::vector<ConnectionProfile> connections,
 
 void ProfileConnections::publish_statuses() {
     std::vector<Status> statuses;
-    for (const auto& entry : entries_)
-        statuses.push_back({entry.profile.type, entry.profile.source, entry.profile.target,
-                            entry.connection ? "" : entry.problem});
+    for (const auto& entry : entries_) {
+        const PortReference &source = entry.profile.source, &target = entry.profile.target;
+        statuses.push_back({entry.profile.type, source, target, entry.connection ? "" : entry.problem});
+        if (entry.connection)
+            process::list_part(&entry,
+                               {"connection", source.component, source.port, target.component, target.port});
+        else
+            process::unlist_part(&entry);
+    }
     const std::lock_guard lock(mutex_);
     statuses_ = std::move(statuses);
 }
@@ -182,6 +189,7 @@ bool ProfileConnections::disconnect_all(std::chrono::nanoseconds timeout) {
     }
     for (const auto& watcher : watchers_) watcher->component.component().removePortListener(watcher.get());
     watchers_.clear();
+    for (const auto& entry : entries_) process::unlist_part(&entry);
     entries_.clear();
     ended_.clear();
     return true;

@@ -4,6 +4,7 @@
 #include "host/crash/callback_scope.hpp"
 #include "host/log/log.hpp"
 #include "host/opros/engine/load/load_component.hpp"
+#include "host/process/published/inventory.hpp"
 #include "host/process/published/notices.hpp"
 #include "host/rt/periodic_tick.hpp"
 #include "host/rt/rehearsal.hpp"
@@ -29,12 +30,17 @@ std::string code_text(ReturnType code) {
 
 } // namespace
 
-ComponentHost::PublishedState::PublishedState(Component& component)
+ComponentHost::PublishedState::PublishedState(Component& component, const ComponentProfile& profile)
     : component_(component), published_(component.getId(), process::ComponentState::inactive) {
+    process::list_part(this, {"component", component.getId(), profile.name, name_of(profile.execution_type),
+                              std::to_string(profile.period.count())});
     component_.addLifecycleListener(this);
 }
 
-ComponentHost::PublishedState::~PublishedState() { component_.removeLifecycleListener(this); }
+ComponentHost::PublishedState::~PublishedState() {
+    process::unlist_part(this);
+    component_.removeLifecycleListener(this);
+}
 
 void ComponentHost::PublishedState::stateChanged(LifecycleState state) {
     published_.set(state == OPROS_CS_ACTIVE  ? process::ComponentState::active
@@ -53,7 +59,7 @@ ComponentHost::ComponentHost(const Subcomponent& entry, ComponentProfile profile
     const Component& component = *component_;
     code_ = &typeid(component);
     component_->setId(name_);
-    published_state_.emplace(*component_);
+    published_state_.emplace(*component_, profile_);
     for (const std::string& line : check_properties(profile_, entry, options.plugin_dirs)) {
         log::warn("{}", line);
         process::publish_notice(process::NoticeKind::setting, line);

@@ -129,10 +129,10 @@ class ComponentHost {
     bool consume_dependency_cycles();
 
   private:
-    /// Publishes the component's state for observers of this process.
+    /// Publishes the component and its state for observers of this process.
     class PublishedState final : public LifecycleListener {
       public:
-        explicit PublishedState(Component& component);
+        PublishedState(Component& component, const ComponentProfile& profile);
         ~PublishedState() override;
         void set_in_cycle_since(std::int64_t ns) noexcept { published_.set_in_cycle_since(ns); }
 

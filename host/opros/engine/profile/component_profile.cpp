@@ -159,6 +159,12 @@ void read_type_references(const pugi::xml_node& root, ComponentProfile& profile)
 
 } // namespace
 
+const char* name_of(ExecutionType type) {
+    static const char* const names[] = {"periodic", "periodic-shared", "aperiodic", "aperiodic-loop",
+                                        "passive"};
+    return names[static_cast<int>(type)];
+}
+
 ComponentProfile read_component_profile(const std::filesystem::path& file) {
     return read_component_profile(XmlFile(file));
 }

@@ -26,6 +26,7 @@ constexpr const char* device_library_names[] = {"APIName", "ApiName", "DllName"}
 /// components of the same period; aperiodic: when an input has arrived; aperiodic_loop: without a pause; passive:
 /// never.
 enum class ExecutionType { periodic, periodic_shared, aperiodic, aperiodic_loop, passive };
+const char* name_of(ExecutionType type); ///< as profiles write it
 
 /// The scheduling policies of sched_setscheduler(2).
 enum class SchedulingPolicy { other, fifo, round_robin };

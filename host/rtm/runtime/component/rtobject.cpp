@@ -2,6 +2,7 @@
 // A component as a CORBA object: construction, initialize() to exit(), and its execution contexts.
 // OpenRTM-aist: class RTObject_impl; interface RTC::RTObject of the OMG RTC specification.
 #include "host/crash/callback_scope.hpp"
+#include "host/process/published/inventory.hpp"
 #include "host/rtm/runtime/execution/configured_contexts.hpp"
 #include "host/rtm/runtime/naming/local_object.hpp"
 #include "host/rtm/runtime/network/access.hpp"
@@ -38,6 +39,7 @@ void RTObject_impl::becomeServant() {
 
 // The Configuration servant may still be in a call of a tool: its last reference deletes it.
 RTObject_impl::~RTObject_impl() {
+    tandem::process::unlist_part(this);
     set_servant_owner(this, nullptr);
     if (m_sdoConfiguration != nullptr) m_sdoConfiguration->_remove_ref();
 }
@@ -55,6 +57,7 @@ void deleteRTObject(RTObject_impl* rtc) {
 
 // Deactivates the servant: calls to the component now raise OBJECT_NOT_EXIST.
 void RTObject_impl::retire() {
+    tandem::process::unlist_part(this);
     try {
         m_pPOA->deactivate_object(m_oid.in());
     } catch (const CORBA::Exception&) {
@@ -66,6 +69,9 @@ void RTObject_impl::retire() {
 // through CORBA, so only the first call counts.
 ReturnCode_t RTObject_impl::initialize() {
     if (m_initialized.exchange(true)) return PRECONDITION_NOT_MET;
+    std::vector<std::string> listed{"component", getInstanceName(), getTypeName(), "", ""};
+    for (auto& name : getNamingNames()) listed.push_back(std::move(name));
+    tandem::process::list_part(this, listed);
     createContexts();
     const ReturnCode_t result = on_initialize();
     if (result != RTC_OK) return result;

@@ -2,6 +2,7 @@
 // A component's ports, profile, properties and action listeners. OpenRTM-aist: RTObject_impl and PortAdmin.
 // A port gets the settings `port.inport.NAME.*` (outport, corbaport), and below them those of all ports of its
 // kind, `port.inport.dataport.*` or `port.corba.*`.
+#include "host/process/published/inventory.hpp"
 #include "host/rtm/runtime/upcall/servant_owners.hpp"
 #include <rtm/RTObject.h>
 #include <typeinfo>
@@ -65,6 +66,7 @@ bool RTObject_impl::addNamed(const char* name, PortBase& port) {
         port.setPortConnectListenerHolder(&m_portConnectListeners);
         return true;
     }
+    tandem::process::unlist_part(&port);
     RTC_ERROR(("there is already a port %s; the second one is not added", name));
     return false;
 }

@@ -2,6 +2,7 @@
 // The parts common to all execution contexts, but for the cycle (execution_cycle.cpp): options, start and
 // stop, participants, profile.
 #include "host/crash/callback_scope.hpp"
+#include "host/process/published/inventory.hpp"
 #include "host/rtm/runtime/execution/rt_object_state_machine.hpp"
 #include "host/rtm/runtime/manager/manager_options.hpp"
 #include <cmath>
@@ -14,8 +15,25 @@
 
 namespace RTC {
 
+namespace {
+
+/// Lists the context for other processes, unless it has no owner in this one. The caller holds the mutex of the context.
+template <class Participants>
+void list_context(const ExecutionContextBase* context, const std::string& owner, double rate, bool running,
+                  const Participants& participants) {
+    if (owner.empty()) return;
+    const char* const kind = context->getKind() == PERIODIC ? "periodic" : "triggered";
+    std::vector<std::string> fields{"context", owner, kind, std::to_string(std::llround(1e9 / rate)),
+                                    running ? "1" : "0"};
+    for (const auto& participant : participants)
+        if (!participant->name().empty()) fields.push_back(participant->name());
+    tandem::process::list_part(context, fields);
+}
+
+} // namespace
+
 ExecutionContextBase::ExecutionContextBase(const char* name) : rtclog(name) {}
-ExecutionContextBase::~ExecutionContextBase() = default;
+ExecutionContextBase::~ExecutionContextBase() { tandem::process::unlist_part(this); }
 
 void deleteExecutionContext(ExecutionContextBase* context) {
     // Contexts are reference-counted servants. The last reference, which an ORB thread may hold, deletes the context.
@@ -62,6 +80,7 @@ void ExecutionContextBase::addParticipant(Participant participant) {
     auto all = *m_participants;
     all.push_back(std::move(participant));
     m_participants = std::make_shared<const std::vector<Participant>>(std::move(all));
+    list_context(this, m_properties.getProperty("tick.owner"), m_rate, m_running, *m_participants);
 }
 
 bool ExecutionContextBase::isRunning() const {
@@ -104,7 +123,9 @@ ReturnCode_t ExecutionContextBase::stop() {
 
 bool ExecutionContextBase::setRunning(bool running) {
     std::lock_guard<std::mutex> lock(m_mutex);
-    return std::exchange(m_running, running) != running;
+    if (std::exchange(m_running, running) == running) return false;
+    list_context(this, m_properties.getProperty("tick.owner"), m_rate, m_running, *m_participants);
+    return true;
 }
 
 double ExecutionContextBase::getRate() const {
@@ -122,6 +143,7 @@ ReturnCode_t ExecutionContextBase::setRate(double rate) {
     {
         std::lock_guard<std::mutex> lock(m_mutex);
         m_rate = rate;
+        list_context(this, m_properties.getProperty("tick.owner"), m_rate, m_running, *m_participants);
     }
     onSetRate(rate);
     forEach(&RTC_impl::RTObjectStateMachine::rateChanged);
@@ -184,6 +206,7 @@ ReturnCode_t ExecutionContextBase::removeComponent(LightweightRTObject_ptr comp)
         auto all = *m_participants;
         std::erase(all, removed);
         m_participants = std::make_shared<const std::vector<Participant>>(std::move(all));
+        list_context(this, m_properties.getProperty("tick.owner"), m_rate, m_running, *m_participants);
     }
     detach_context(comp, m_objref.in(), rtclog);
     return RTC_OK;
@@ -237,6 +260,7 @@ ExecutionContextProfile* ExecutionContextBase::getProfile() {
 
 void ExecutionContextBase::retire() {
     stop();
+    tandem::process::unlist_part(this);
     Participants former;
     RTObject_var owner;
     {

@@ -56,7 +56,7 @@ RTObjectStateMachine::RTObjectStateMachine(RTC::UniqueId id, RTC::LightweightRTO
     if (local_ == nullptr)
         data_flow_actions_ = RTC::DataFlowComponentAction::_narrow(component);
     else
-        published_.emplace(local_->getInstanceName(), ComponentState::inactive);
+        published_.emplace(name_ = local_->getInstanceName(), ComponentState::inactive);
 }
 
 RTObjectStateMachine::~RTObjectStateMachine() = default;

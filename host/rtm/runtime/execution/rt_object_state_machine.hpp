@@ -4,6 +4,7 @@
 #include <mutex>
 #include <optional>
 #include <rtm/RTC.h>
+#include <string>
 
 namespace RTC {
 class RTObject_impl;
@@ -32,6 +33,8 @@ class RTObjectStateMachine {
     bool refersTo(RTC::LightweightRTObject_ptr component) const;
     /// Returns NULL if the component is in another process.
     const RTC::RTObject_impl* local() const { return local_; }
+    /// Returns the name of the component; empty if it is in another process.
+    const std::string& name() const { return name_; }
     /// The reference is not duplicated; it is valid as long as this object.
     RTC::LightweightRTObject_ptr reference() const { return reference_.in(); }
 
@@ -65,6 +68,7 @@ class RTObjectStateMachine {
     RTC::LightweightRTObject_var reference_;
     RTC::DataFlowComponentAction_var data_flow_actions_; // nil: of this process, or without these actions
     RTC::RTObject_impl* local_;                          // NULL: of another process
+    std::string name_;
     std::optional<tandem::process::OwnComponentState> published_; // of a component of this process
     mutable std::mutex mutex_;                                    // guards both states
     RTC::LifeCycleState current_ = RTC::INACTIVE_STATE;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // PortAdmin: the list of a component's ports.
+#include "host/process/published/inventory.hpp"
 #include "host/rt/periodic_tick.hpp"
 #include <algorithm>
 #include <rtm/PortAdmin.h>
@@ -80,6 +81,7 @@ bool PortAdmin::removePort(PortBase& port) {
     auto found = std::find(ports_.begin(), ports_.end(), &port);
     if (found == ports_.end()) return false;
     ports_.erase(found);
+    tandem::process::unlist_part(&port);
     return true;
 }
 

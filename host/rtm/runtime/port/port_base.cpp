@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // A port as a CORBA object: identity, profile, list of connection profiles. How it is connected is in
 // port_connect.cpp.
+#include "host/process/published/inventory.hpp"
 #include "host/rt/rehearsal.hpp"
+#include "host/rtm/runtime/port/listed_port.hpp"
 #include "host/rtm/runtime/transport/out_port_connectors.hpp"
 #include "host/rtm/runtime/upcall/servant_owners.hpp"
 #include <chrono>
@@ -42,6 +44,7 @@ PortBase::PortBase(const char* name) : rtclog(name), m_poa(Manager::instance().g
 PortBase::~PortBase() { retire(); }
 
 void PortBase::retire() {
+    tandem::process::unlist_part(this);
     if (m_retired) return;
     m_retired = true;
     set_servant_owner(this, nullptr);
@@ -130,6 +133,7 @@ void PortBase::setOwner(RTObject_ptr owner, const char* instance_name) {
     m_ownerInstanceName = instance_name;
     m_profile.owner = RTC::RTObject::_duplicate(owner);
     m_profile.name = CORBA::string_dup(name.c_str());
+    list_port(this, m_profile);
     rtclog.setName(name.c_str());
 }
 
@@ -188,6 +192,7 @@ void PortBase::updateConnectorProfile(const ConnectorProfile& profile) {
         CORBA_SeqUtil::push_back(m_profile.connector_profiles, profile);
     else
         m_profile.connector_profiles[static_cast<CORBA::ULong>(index)] = profile;
+    list_port(this, m_profile);
 }
 
 bool PortBase::eraseConnectorProfile(const char* id) {
@@ -195,6 +200,7 @@ bool PortBase::eraseConnectorProfile(const char* id) {
     const CORBA::Long index = findConnProfileIndex(id);
     if (index < 0) return false;
     CORBA_SeqUtil::erase(m_profile.connector_profiles, static_cast<CORBA::ULong>(index));
+    list_port(this, m_profile);
     return true;
 }
 
@@ -212,6 +218,7 @@ bool PortBase::appendInterface(const char* instance_name, const char* type_name,
     profile.type_name = CORBA::string_dup(type_name);
     profile.polarity = polarity;
     CORBA_SeqUtil::push_back(m_profile.interfaces, profile);
+    list_port(this, m_profile);
     return true;
 }
 
@@ -222,6 +229,7 @@ bool PortBase::deleteInterface(const char* name, PortInterfacePolarity polarity)
     });
     if (index < 0) return false;
     CORBA_SeqUtil::erase(m_profile.interfaces, static_cast<CORBA::ULong>(index));
+    list_port(this, m_profile);
     return true;
 }
 

@@ -127,6 +127,7 @@ TEST_CASE("ticks are metrics, also two with the same name in one process") {
     tick.lateness[4] = 900; // 512 ns to 1.024 us
     tick.lateness[5] = 99;
     tick.lateness[31] = 1;
+    tick.execution[11] = 1000; // 65.5 us to 131 us
     state.ticks = {tick, tick};
     state.ticks[0].hang = HangState{"Control", "onExecute", 1000, 2.5};
     const auto samples = parse(metrics_text(state));
@@ -146,6 +147,8 @@ TEST_CASE("ticks are metrics, also two with the same name in one process") {
     CHECK(bucket("4.096e-06") == "999");
     CHECK(bucket("17.179869184") == "999");
     CHECK(bucket("+Inf") == "1000");
+    CHECK(samples.at("tandem_tick_execution_seconds_bucket{" + labels + ",le=\"6.5536e-05\"}") == "0");
+    CHECK(samples.at("tandem_tick_execution_seconds_bucket{" + labels + ",le=\"0.000262144\"}") == "1000");
 }
 
 TEST_CASE("the verdict is a metric with one level that is 1, and so are the states of components") {

@@ -30,7 +30,7 @@ TEST_CASE("no percentile of a tick's lateness is above the latest tick") {
     CHECK(before.ticks[0].name == "control");
 
     const std::int64_t lateness_ns = 1100; // of the octave that ends at 2048
-    tandem::rt::count(slot->lateness[tandem::rt::lateness_octave(lateness_ns)], 100);
+    tandem::rt::count(slot->lateness[tandem::rt::time_octave(lateness_ns)], 100);
     tandem::rt::count(slot->ticks, 100);
     slot->lateness_ns_max = lateness_ns;
     State after = state_of_this_process();
@@ -42,6 +42,27 @@ TEST_CASE("no percentile of a tick's lateness is above the latest tick") {
     CHECK(tick.recent_lateness.p50_ns == 1100);
     CHECK(tick.recent_lateness.p99_ns == 1100);
     CHECK(tick.recent_lateness.max_ns == 1100);
+    CHECK(tick.recent_execution.samples == 0);
+}
+
+TEST_CASE("the execution times of the last seconds are read, and no percentile is above the longest cycle") {
+    const tandem::rt::OwnTickSlot slot("control", 10'000'000);
+    TickReader reader;
+    tandem::rt::count(slot->execution[tandem::rt::time_octave(5'000'000)]);
+    slot->execution_ns_max = 5'000'000;
+    State before = state_of_this_process();
+    reader.read(before, 1'000'000'000);
+    tandem::rt::count(slot->execution[tandem::rt::time_octave(70'000)], 97);
+    tandem::rt::count(slot->execution[tandem::rt::time_octave(300'000)], 3);
+    State after = state_of_this_process();
+    reader.read(after, 2'000'000'000);
+    REQUIRE(after.ticks.size() == 1);
+    const TickState& tick = after.ticks[0];
+    CHECK(tick.longest_ns == 5'000'000);
+    CHECK(tick.recent_execution.samples == 100);
+    CHECK(tick.recent_execution.p50_ns == 131'072);
+    CHECK(tick.recent_execution.p99_ns == 524'288);
+    CHECK(tick.recent_execution.max_ns == 524'288);
 }
 
 namespace {

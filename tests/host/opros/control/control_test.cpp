@@ -4,6 +4,7 @@
 #include "host/opros/control/application_control.hpp"
 #include "host/opros/control/control_server.hpp"
 #include "tests/host/opros/engine/running.hpp"
+#include "tests/host/process/inventory_lines.hpp"
 
 #include <fmt/format.h>
 
@@ -84,6 +85,28 @@ TEST_CASE("a component shows its ports, its connections, made or not, and its pr
     CHECK(info["last_error"] == "");
     CHECK(scene.error({{"command", "info"}, {"component", "N"}}) ==
           fmt::format("opros_host {} has no component N (it has: M, P)", getpid()));
+}
+
+TEST_CASE("components, ports and connections that are made are listed for other processes while they exist") {
+    using tandem::test::count_parts;
+    {
+        Scene scene;
+        CHECK(count_parts("component\tM\tM\tperiodic\t5000000") == 1);
+        CHECK(count_parts("component\tP\tP\tpassive\t0") == 1);
+        CHECK(count_parts("port\tM\tnumbers\tdata\toutput\tstd::vector<double>") == 1);
+        CHECK(count_parts("port\tM\tmath\tservice\trequired") == 1);
+        CHECK(count_parts("connection\tM\tnumbers\tP\tnumbers") == 1);
+        CHECK(count_parts("connection") == 1);
+        Component& maker = scene.application.find_component("M")->component();
+        Port* const numbers = maker.getPort("numbers");
+        maker.removePort("numbers");
+        CHECK(count_parts("connection") == 0);
+        CHECK(count_parts("port\tM\tnumbers") == 0);
+        maker.addPort("numbers", numbers);
+        CHECK(count_parts("connection\tM\tnumbers\tP\tnumbers") == 1);
+        CHECK(count_parts("port\tM\tnumbers") == 1);
+    }
+    CHECK(tandem::test::read_inventory().lines.empty());
 }
 
 TEST_CASE("a component is stopped, started, and recovered from its error, which is shown") {

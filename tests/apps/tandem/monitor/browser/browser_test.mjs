@@ -39,11 +39,12 @@ test("a running wheelchair is shown: verdict, graph, links and events", async ()
   assert.deepEqual(components.sort(), ["Adaptor", "ControlComp", "HWComp", "InterceptorComp0", "JoystickComp0", "JoystickComp0, mirrored", "wheelchair"]);
   const states = await page.locator("#graph .component", { hasText: "ControlComp" }).locator(".detail").textContent();
   assert.match(states, /^✓ active, 10 ms$/);
-  const ports = await page.locator("#graph .port text").allTextContents();
+  const ports = await page.locator("#graph .port:not(.inside) text").allTextContents();
   assert.deepEqual(ports.map((name) => name.replace(/^[◉◡] /, "").replace(/ .*/, "")).sort(),
     ["chair", "chair", "chair", "joystick", "joystick", "joystickPos", "joystickPos", "reference", "reference"]);
   assert.equal(await page.locator("#graph .edge.live").count(), 2);
-  assert.equal(await page.locator("#graph .edge.service").count(), 2);
+  assert.equal(await page.locator("#graph .edge.service:not(.inside)").count(), 2);
+  assert.ok(await page.locator("#graph .edge.inside").count() >= 2); // from and to the mirror, and between ControlComp and HWComp
   await page.waitForFunction(() => /[1-9]\d*(\.\d+)?\/s/.test(document.querySelector("#graph .edge.live .rate").textContent));
   await view("links");
   assert.equal(await page.locator("#ports tbody tr").count(), 3);
