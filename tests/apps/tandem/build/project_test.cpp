@@ -146,6 +146,37 @@ TEST_CASE("a library that a project makes from object libraries has their source
     CHECK(found.target.libraries == Names{"m"});
 }
 
+TEST_CASE("a project with only a program gives the sources without main()") {
+    const Folder folder;
+    const auto project = GENERATE("project(arms CXX)\n", "project(arms CXX)\ninclude(missing.cmake)\n");
+    folder.write("CMakeLists.txt",
+                 std::string(project) + "add_executable(ArmComp Arm.cpp Part.cpp ArmComp.cpp)\n");
+    folder.write("Arm.cpp", module_text);
+    folder.write("ArmComp.cpp", "int main(int, char**) {\n}\n");
+    for (const char* other : {"Part.cpp", "Old.cpp"}) folder.write(other, "");
+    CMakeProjects projects("", 60);
+    const auto found = select(folder.path(), projects);
+    CHECK(names_of(found.sources) == Names{"Arm.cpp", "Part.cpp"});
+    CHECK(names_of(found.left_out) == Names{"ArmComp.cpp", "Old.cpp"});
+}
+
+TEST_CASE("libraries and folders of a project may have blanks and quotes in their names") {
+    const Folder folder;
+    folder.write("lib of arms/libgrip 2.so", "");
+    folder.write("it's/libpalm.so", "");
+    folder.write(
+        "CMakeLists.txt",
+        "project(arms CXX)\nlink_directories(\"${CMAKE_SOURCE_DIR}/lib of arms\")\n"
+        "add_library(Arm MODULE Arm.cpp)\ntarget_link_libraries(Arm finger\n"
+        "  \"${CMAKE_SOURCE_DIR}/lib of arms/libgrip 2.so\" \"${CMAKE_SOURCE_DIR}/it's/libpalm.so\")\n");
+    folder.write("Arm.cpp", module_text);
+    CMakeProjects projects("", 60);
+    const auto target = select(folder.path(), projects).target;
+    const auto top = fs::canonical(folder.path());
+    CHECK(target.libraries == Names{"finger", top / "lib of arms/libgrip 2.so", top / "it's/libpalm.so"});
+    CHECK(target.library_dirs == std::vector<fs::path>{top / "lib of arms"});
+}
+
 TEST_CASE("a standard is that of the project, also by the name of its draft, and none is older than C++11") {
     const Folder folder;
     folder.write("Arm.cpp", module_text);
