@@ -202,12 +202,21 @@ std::optional<std::string> run_cmake(const std::vector<std::string>& command, do
                              (plugin.problem.empty() ? "" : "; " + plugin.problem) + ")");
 }
 
-// Adds each missing header that exists in exactly one place of the checkout, and prints a note. Returns
-// whether it added one.
+// Returns the files of the checkout that give the header: copies of it, or else IDL files that it is made from.
+std::vector<fs::path> find_origins(const std::string& header, const fs::path& folder) {
+    const auto checkout = find_checkout(folder);
+    auto found = find_in_checkout(checkout, header);
+    if (const auto idl = idl_of_header(header); found.empty() && !idl.empty())
+        found = find_in_checkout(checkout, (fs::path(header).parent_path() / idl).string());
+    return found;
+}
+
+// Adds each missing header that exists, or whose IDL file does, in exactly one place of the checkout, and prints a
+// note. Returns whether it added one.
 bool add_neighbours(const std::string& output, const fs::path& folder, NeighbourHeaders& neighbours) {
     bool added = false;
     for (const auto& header : missing_headers(output)) {
-        const auto found = find_in_checkout(find_checkout(folder), header);
+        const auto found = find_origins(header, folder);
         if (found.size() != 1 || is_windows_header(header) || !neighbours.emplace(header, found[0]).second)
             continue;
         print_note("tandem: {} is not in {}; using the file found elsewhere in this repository: {}\n", header,
@@ -230,13 +239,11 @@ bool add_installed(const std::string& output, std::map<fs::path, InstalledLibrar
     return added;
 }
 
-// opencv2/opencv.hpp and others contained the C API in OpenCV 2 and 3. Returns whether including cv.h may
-// help, and prints a note.
+// opencv2/opencv.hpp and others contained the C API in OpenCV 2 and 3, also where cv.h is included later. Returns
+// whether including cv.h first may help, and prints a note.
 bool add_cv_h(const std::string& output, Plugin& plugin) {
     const std::string name = dropped_by_opencv(first_error(output));
-    if (name.empty() || plugin.includes.pkg_config.count("opencv4") == 0 || plugin.includes.old_opencv ||
-        plugin.needs_cv_h)
-        return false;
+    if (name.empty() || plugin.includes.pkg_config.count("opencv4") == 0 || plugin.needs_cv_h) return false;
     plugin.needs_cv_h = true;
     print_note("tandem: {} is part of OpenCV's C API, which the OpenCV 4 headers included by {} omit; "
                "including cv.h and highgui.h before each source\n",
