@@ -147,20 +147,20 @@ std::string advice(const std::string& error, const Plugin& plugin, const PluginB
     BuildFacts facts{folder, options.pkg_config, options.libraries};
     for (const auto& module : used_modules(plugin)) facts.pkg_config.push_back(module);
     std::string text = find_remedy(error, facts);
-    // One of these files may define a function that no known library defines.
-    if (text.find("--source FILE") != std::string::npos && !plugin.sources.left_out.empty()) {
-        text = "these files were left out because " + plugin.sources.project_files + " does not list them:";
-        for (const auto& file : plugin.sources.left_out) text += " " + file.filename().string();
-        text += "; to build them, name all source files with --source";
-    }
-    // Also lists the component's own sources, because --source replaces the sources found.
-    const auto symbol = undefined_symbol(error);
-    const auto definitions =
-        symbol.empty() ? std::vector<fs::path>{} : find_definitions(find_checkout(folder), symbol);
-    if (text.find("--source FILE") != std::string::npos && definitions.size() == 1) {
-        text = "another source file of this repository defines it: use";
-        for (const auto& file : plugin.sources.sources) text += " --source " + file.filename().string();
-        text += " --source " + definitions[0].lexically_proximate(fs::current_path()).string();
+    if (text.find("--source FILE") != std::string::npos) {
+        // Files that were left out may define a function that no known library defines. --source replaces the sources
+        // found: it must name these, too.
+        const auto definitions = find_definitions(find_checkout(folder), undefined_symbol(error));
+        if (definitions.size() == 1) {
+            text = "another source file of this repository defines it: use";
+            for (const auto& file : plugin.sources.sources) text += " --source " + file.filename().string();
+            text += " --source " + definitions[0].lexically_proximate(fs::current_path()).string();
+        } else if (!plugin.sources.left_out.empty()) {
+            text =
+                "these files were left out because " + plugin.sources.project_files + " does not list them:";
+            for (const auto& file : plugin.sources.left_out) text += " " + file.filename().string();
+            text += "; to build them, name all source files with --source";
+        }
     }
     if (const auto name = dropped_by_opencv(error);
         (plugin.includes.old_opencv || plugin.needs_cv_h) && !name.empty())

@@ -41,6 +41,8 @@ std::vector<Candidate> find_rtm(const fs::path& top, std::size_t&) {
 std::vector<std::string> load_rtm(const Candidate&, const fs::path& library) {
     std::vector<std::string> types, instances;
     for (const auto& type : probe_rtc_types(library, {})) {
+        if (type.name.empty())
+            throw std::runtime_error("its module function registers a component without implementation_id");
         types.push_back(type.name);
         instances.push_back(type.name + "0");
     }
