@@ -191,6 +191,26 @@ TEST_CASE("a standard is that of the project, also by the name of its draft, and
     }
 }
 
+// As RTCBuilder and others make projects: for installations of OpenRTM-aist, and with templates that are not checked in.
+TEST_CASE("a project's own FindOpenRTM.cmake and missing templates do not keep it from being configured") {
+    const Folder folder;
+    folder.write("cmake/FindOpenRTM.cmake", "file(STRINGS /nowhere/rtm/version.h lines)\n");
+    folder.write("CMakeLists.txt", "project(arms CXX)\nset(CMAKE_MODULE_PATH ${CMAKE_SOURCE_DIR}/cmake)\n"
+                                   "find_package(OpenRTM REQUIRED)\nset(JOINTS 6)\n"
+                                   "configure_file(arms-config.cmake.in arms-config.cmake)\n"
+                                   "configure_file(joints.h.in joints.h @ONLY)\n"
+                                   "include_directories(${CMAKE_CURRENT_BINARY_DIR})\n"
+                                   "add_library(Arm SHARED Arm.cpp)\n");
+    folder.write("joints.h.in", "#define JOINTS @JOINTS@\n");
+    folder.write("Arm.cpp", module_text);
+    CMakeProjects projects("", 60);
+    const auto target = select(folder.path(), projects).target;
+    INFO(projects.problem());
+    CHECK(projects.problem().empty());
+    REQUIRE(target.include_dirs.size() == 1);
+    CHECK(fs::exists(target.include_dirs[0] / "joints.h"));
+}
+
 TEST_CASE("a kept folder serves another project, too") {
     const Folder folder, other;
     for (const auto* each : {&folder, &other}) {
