@@ -260,6 +260,7 @@ TEST_CASE("an error about a header or a library is followed by a remedy") {
     folder.write("Other/Gain.h", "");
     CHECK_THAT(no_header("Gain.h"), Catch::Contains("Neighbour/include") && Catch::Contains(", or -I "));
     CHECK_THAT(no_header("afxwin.h"), Catch::Contains("a Windows header"));
+    CHECK_THAT(no_header("progid:Stick.Device.1"), Catch::Contains("a Windows header"));
     CHECK_THAT(no_header("Vendor.h"), Catch::Contains("-I DIR"));
     CHECK(no_header("glut.h") == "if GL/glut.h is meant: apt install libglut-dev");
     CHECK(remedy("Old.cpp:9: undefined reference to `cvReleaseImage'") ==

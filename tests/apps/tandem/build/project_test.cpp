@@ -166,7 +166,8 @@ TEST_CASE("libraries and folders of a project may have blanks and quotes in thei
     folder.write("it's/libpalm.so", "");
     folder.write(
         "CMakeLists.txt",
-        "project(arms CXX)\nlink_directories(\"${CMAKE_SOURCE_DIR}/lib of arms\")\n"
+        "cmake_minimum_required(VERSION 3.16)\nproject(arms CXX)\nlink_directories(\"${CMAKE_SOURCE_DIR}/lib "
+        "of arms\")\n"
         "add_library(Arm MODULE Arm.cpp)\ntarget_link_libraries(Arm finger\n"
         "  \"${CMAKE_SOURCE_DIR}/lib of arms/libgrip 2.so\" \"${CMAKE_SOURCE_DIR}/it's/libpalm.so\")\n");
     folder.write("Arm.cpp", module_text);
