@@ -162,19 +162,19 @@ TEST_CASE("a project with only a program gives the sources without main()") {
 
 TEST_CASE("libraries and folders of a project may have blanks and quotes in their names") {
     const Folder folder;
-    folder.write("lib of arms/libgrip 2.so", "");
-    folder.write("it's/libpalm.so", "");
+    folder.write("lib of arms/libgrip 2.a", "");
+    folder.write("it's/libpalm.a", "");
     folder.write(
         "CMakeLists.txt",
         "cmake_minimum_required(VERSION 3.16)\nproject(arms CXX)\nlink_directories(\"${CMAKE_SOURCE_DIR}/lib "
         "of arms\")\n"
         "add_library(Arm MODULE Arm.cpp)\ntarget_link_libraries(Arm finger\n"
-        "  \"${CMAKE_SOURCE_DIR}/lib of arms/libgrip 2.so\" \"${CMAKE_SOURCE_DIR}/it's/libpalm.so\")\n");
+        "  \"${CMAKE_SOURCE_DIR}/lib of arms/libgrip 2.a\" \"${CMAKE_SOURCE_DIR}/it's/libpalm.a\")\n");
     folder.write("Arm.cpp", module_text);
     CMakeProjects projects("", 60);
     const auto target = select(folder.path(), projects).target;
     const auto top = fs::canonical(folder.path());
-    CHECK(target.libraries == Names{"finger", top / "lib of arms/libgrip 2.so", top / "it's/libpalm.so"});
+    CHECK(target.libraries == Names{"finger", top / "lib of arms/libgrip 2.a", top / "it's/libpalm.a"});
     CHECK(target.library_dirs == std::vector<fs::path>{top / "lib of arms"});
 }
 
