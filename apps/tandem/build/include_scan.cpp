@@ -72,8 +72,7 @@ class Scanner {
         if (!in_search_path.empty()) return read(in_search_path);
         if (result.forwards.count(name) != 0) return;
         auto file = find_below(name);
-        if (const auto neighbour = neighbours_.find(name); file.empty() && neighbour != neighbours_.end())
-            file = neighbour->second;
+        if (const auto neighbour = neighbour_of(name); file.empty() && !is_idl(neighbour)) file = neighbour;
         if (const auto beside = (place / to_posix_path(name)).lexically_normal();
             file.empty() && is_file(beside))
             file = beside;
@@ -87,6 +86,11 @@ class Scanner {
         for (const auto& dir : dirs_)
             if (is_file(dir / name)) return (dir / name).lexically_normal();
         return {};
+    }
+
+    fs::path neighbour_of(const std::string& name) const {
+        const auto found = neighbours_.find(name);
+        return found == neighbours_.end() ? fs::path{} : found->second;
     }
 
     void add_module(const std::string& name) {
@@ -124,12 +128,13 @@ class Scanner {
     }
 
     // Builds create a header from an IDL file that may be anywhere in the component's folder, in a folder above it, or in
-    // an include folder. Catkin projects include the header as PROJECT/idl/X.hh.
+    // an include folder, or the neighbour's. Catkin projects include the header as PROJECT/idl/X.hh.
     void find_idl(const std::string& name) {
         const fs::path header(name);
         const std::string idl = idl_of_header(header);
         if (idl.empty()) return;
-        const auto found = idl_file(header.parent_path(), idl);
+        auto found = idl_file(header.parent_path(), idl);
+        if (found.empty()) found = neighbour_of(name);
         if (found.empty()) return;
         if (header.has_parent_path()) result.forwards[name] = header.filename().string();
         // The CMake function finds those in the folder and its idl/.

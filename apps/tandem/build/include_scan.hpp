@@ -20,7 +20,7 @@ struct IncludeScan {
     bool old_opencv = false;          ///< whether a C header of OpenCV 1 or 2 is included
 };
 
-/// Maps names in #include lines to headers of neighbouring components.
+/// Maps names in #include lines to headers of neighbouring components, or to the IDL files that they are made from.
 using NeighbourHeaders = std::map<std::string, std::filesystem::path>;
 
 /// Reads the sources, and the headers of the component and of `neighbours` that they include. `include_dirs`:

@@ -147,20 +147,20 @@ std::string advice(const std::string& error, const Plugin& plugin, const PluginB
     BuildFacts facts{folder, options.pkg_config, options.libraries};
     for (const auto& module : used_modules(plugin)) facts.pkg_config.push_back(module);
     std::string text = find_remedy(error, facts);
-    // One of these files may define a function that no known library defines.
-    if (text.find("--source FILE") != std::string::npos && !plugin.sources.left_out.empty()) {
-        text = "these files were left out because " + plugin.sources.project_files + " does not list them:";
-        for (const auto& file : plugin.sources.left_out) text += " " + file.filename().string();
-        text += "; to build them, name all source files with --source";
-    }
-    // Also lists the component's own sources, because --source replaces the sources found.
-    const auto symbol = undefined_symbol(error);
-    const auto definitions =
-        symbol.empty() ? std::vector<fs::path>{} : find_definitions(find_checkout(folder), symbol);
-    if (text.find("--source FILE") != std::string::npos && definitions.size() == 1) {
-        text = "another source file of this repository defines it: use";
-        for (const auto& file : plugin.sources.sources) text += " --source " + file.filename().string();
-        text += " --source " + definitions[0].lexically_proximate(fs::current_path()).string();
+    if (text.find("--source FILE") != std::string::npos) {
+        // Files that were left out may define a function that no known library defines. --source replaces the sources
+        // found: it must name these, too.
+        const auto definitions = find_definitions(find_checkout(folder), undefined_symbol(error));
+        if (definitions.size() == 1) {
+            text = "another source file of this repository defines it: use";
+            for (const auto& file : plugin.sources.sources) text += " --source " + file.filename().string();
+            text += " --source " + definitions[0].lexically_proximate(fs::current_path()).string();
+        } else if (!plugin.sources.left_out.empty()) {
+            text =
+                "these files were left out because " + plugin.sources.project_files + " does not list them:";
+            for (const auto& file : plugin.sources.left_out) text += " " + file.filename().string();
+            text += "; to build them, name all source files with --source";
+        }
     }
     if (const auto name = dropped_by_opencv(error);
         (plugin.includes.old_opencv || plugin.needs_cv_h) && !name.empty())
@@ -202,12 +202,21 @@ std::optional<std::string> run_cmake(const std::vector<std::string>& command, do
                              (plugin.problem.empty() ? "" : "; " + plugin.problem) + ")");
 }
 
-// Adds each missing header that exists in exactly one place of the checkout, and prints a note. Returns
-// whether it added one.
+// Returns the files of the checkout that give the header: copies of it, or else IDL files that it is made from.
+std::vector<fs::path> find_origins(const std::string& header, const fs::path& folder) {
+    const auto checkout = find_checkout(folder);
+    auto found = find_in_checkout(checkout, header);
+    if (const auto idl = idl_of_header(header); found.empty() && !idl.empty())
+        found = find_in_checkout(checkout, (fs::path(header).parent_path() / idl).string());
+    return found;
+}
+
+// Adds each missing header that exists, or whose IDL file does, in exactly one place of the checkout, and prints a
+// note. Returns whether it added one.
 bool add_neighbours(const std::string& output, const fs::path& folder, NeighbourHeaders& neighbours) {
     bool added = false;
     for (const auto& header : missing_headers(output)) {
-        const auto found = find_in_checkout(find_checkout(folder), header);
+        const auto found = find_origins(header, folder);
         if (found.size() != 1 || is_windows_header(header) || !neighbours.emplace(header, found[0]).second)
             continue;
         print_note("tandem: {} is not in {}; using the file found elsewhere in this repository: {}\n", header,
@@ -230,13 +239,11 @@ bool add_installed(const std::string& output, std::map<fs::path, InstalledLibrar
     return added;
 }
 
-// opencv2/opencv.hpp and others contained the C API in OpenCV 2 and 3. Returns whether including cv.h may
-// help, and prints a note.
+// opencv2/opencv.hpp and others contained the C API in OpenCV 2 and 3, also where cv.h is included later. Returns
+// whether including cv.h first may help, and prints a note.
 bool add_cv_h(const std::string& output, Plugin& plugin) {
     const std::string name = dropped_by_opencv(first_error(output));
-    if (name.empty() || plugin.includes.pkg_config.count("opencv4") == 0 || plugin.includes.old_opencv ||
-        plugin.needs_cv_h)
-        return false;
+    if (name.empty() || plugin.includes.pkg_config.count("opencv4") == 0 || plugin.needs_cv_h) return false;
     plugin.needs_cv_h = true;
     print_note("tandem: {} is part of OpenCV's C API, which the OpenCV 4 headers included by {} omit; "
                "including cv.h and highgui.h before each source\n",

@@ -7,9 +7,11 @@
 #include "apps/tandem/build/packages/header_packages.hpp"
 #include "apps/tandem/build/packages/installed_library.hpp"
 #include "apps/tandem/build/packages/symbol_libraries.hpp"
+#include "host/text/quote.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <iterator>
 #include <map>
 #include <regex>
@@ -127,6 +129,11 @@ std::string for_header(const std::string& header, const BuildFacts& facts) {
         return header + " belongs to " + origin +
                ", which Debian does not package: build it, then add its headers with -I DIR and its library "
                "with -l NAME";
+    const auto checkout = find_checkout(folder);
+    if (const auto modules = missing_submodules(checkout); !checkout.empty() && !modules.empty())
+        return fmt::format("{} of this repository {} not checked out: git -C {} submodule update --init",
+                           fmt::join(modules, ", "), modules.size() == 1 ? "is" : "are",
+                           text::quote_shell(checkout.string()));
     return "if you have the library or component that " + header + " belongs to, add its folder with -I DIR";
 }
 

@@ -98,11 +98,13 @@ void remove_others(const Paths& entries, const EntryPoint& entry_point, Paths& s
     });
 }
 
-void use_list(const Paths& listed, const std::string& project_files, SelectedSources& selected) {
+// Uses the sources that a target lists. A program is the component's only target in some projects: its main() stays out.
+void use_list(Paths listed, bool is_program, const std::string& project_files, SelectedSources& selected) {
+    if (is_program) std::erase_if(listed, [](const auto& file) { return defines_main(read_text(file)); });
     for (const auto& source : selected.sources)
         if (std::find(listed.begin(), listed.end(), source) == listed.end())
             selected.left_out.push_back(source);
-    selected.sources = listed;
+    selected.sources = std::move(listed);
     selected.project_files = project_files;
 }
 
@@ -133,7 +135,8 @@ void apply_source_lists(const fs::path& folder, const Paths& entries, SelectedSo
         add(project_files, list.project_file);
         for (const auto& source : list.sources) add(listed, source);
     }
-    if (!listed.empty()) use_list(listed, names_of(project_files, folder), selected);
+    const bool is_program = !lists.empty() && lists.front().is_program; // then all are
+    if (!listed.empty()) use_list(std::move(listed), is_program, names_of(project_files, folder), selected);
 }
 
 bool find_target(const Paths& entries, const fs::path& folder, const ProjectSearch& search,
@@ -160,7 +163,8 @@ SelectedSources select_sources(const fs::path& named_folder, const EntryPoint& e
         if (entries.empty()) entries = entries_of(list_files_below(folder), entry_point);
         for (const auto& entry : entries) add_sources(entry.parent_path(), selected.sources);
         if (find_target(entries, folder, search, selected.target)) {
-            use_list(selected.target.sources, "CMakeLists.txt", selected);
+            use_list(selected.target.sources, selected.target.kind == ProjectTarget::Kind::program,
+                     "CMakeLists.txt", selected);
         } else {
             remove_others(entries, entry_point, selected.sources);
             apply_source_lists(folder, entries, selected);

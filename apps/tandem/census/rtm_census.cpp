@@ -41,15 +41,17 @@ std::vector<Candidate> find_rtm(const fs::path& top, std::size_t&) {
 std::vector<std::string> load_rtm(const Candidate&, const fs::path& library) {
     std::vector<std::string> types, instances;
     for (const auto& type : probe_rtc_types(library, {})) {
+        if (type.name.empty())
+            throw std::runtime_error("its module function registers a component without implementation_id");
         types.push_back(type.name);
         instances.push_back(type.name + "0");
     }
     if (types.empty()) throw std::runtime_error("its module function registers no component");
     const auto conf = library.parent_path() / "census.conf";
-    // 100 Hz is enough to see cycles. No name server of this network learns of the component.
+    // 100 Hz is enough to see cycles. No name server of this network learns of the component. Its log says why it fails.
     write_file(conf, fmt::format("manager.modules.load_path: {}\nmanager.modules.preload: {}\n"
                                  "manager.components.precreate: {}\nmanager.components.preactivation: {}\n"
-                                 "manager.shutdown_auto: NO\nnaming.enable: NO\nlogger.enable: NO\n"
+                                 "manager.shutdown_auto: NO\nnaming.enable: NO\nlogger.log_level: ERROR\n"
                                  "exec_cxt.periodic.rate: 100\n",
                                  library.parent_path().string(), library.filename().string(),
                                  fmt::join(types, ","), fmt::join(instances, ",")));

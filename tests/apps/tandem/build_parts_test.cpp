@@ -200,6 +200,25 @@ TEST_CASE("a header is searched in the whole checkout by the longest matching pa
     CHECK_FALSE(fs::exists(folder.path() / "x.h"));
 }
 
+TEST_CASE("a header that is nowhere may be in a submodule that is not checked out") {
+    const Folder folder;
+    fs::create_directories(folder.path() / ".git");
+    folder.write(".gitmodules", "[submodule \"arm\"]\n\tpath = lib/arm\n\turl = https://example.org/arm\n"
+                                "[submodule \"hand\"]\n\tpath=lib/hand \n");
+    folder.write("Arm/Arm.cpp", "");
+    folder.write("lib/hand/Hand.h", "");
+    fs::create_directories(folder.path() / "lib/arm");
+    const auto remedy = [&](const std::string& header) {
+        return find_remedy("Arm.cpp:3:10: fatal error: " + header + ": No such file or directory",
+                           {folder.path() / "Arm", {}, {}, folder.path() / "nothing installed"});
+    };
+    CHECK(remedy("arm/Joint.h") == "lib/arm of this repository is not checked out: git -C " +
+                                       fs::canonical(folder.path()).string() + " submodule update --init");
+    CHECK(remedy("ode/ode.h") == "apt install libode-dev");
+    folder.write("lib/arm/Joint.c", "");
+    CHECK_THAT(remedy("arm/Joint.h"), Catch::Contains("-I DIR"));
+}
+
 TEST_CASE("unconditional definitions of the project's CMakeLists.txt are used") {
     const Folder folder;
     fs::create_directories(folder.path() / ".git");
@@ -241,7 +260,9 @@ TEST_CASE("an error about a header or a library is followed by a remedy") {
     folder.write("Other/Gain.h", "");
     CHECK_THAT(no_header("Gain.h"), Catch::Contains("Neighbour/include") && Catch::Contains(", or -I "));
     CHECK_THAT(no_header("afxwin.h"), Catch::Contains("a Windows header"));
+    CHECK_THAT(no_header("progid:Stick.Device.1"), Catch::Contains("a Windows header"));
     CHECK_THAT(no_header("Vendor.h"), Catch::Contains("-I DIR"));
+    CHECK(no_header("glut.h") == "if GL/glut.h is meant: apt install libglut-dev");
     CHECK(remedy("Old.cpp:9: undefined reference to `cvReleaseImage'") ==
           "apt install libopencv-dev, and add --pkg-config opencv4");
     CHECK(remedy("Old.cpp:9: undefined reference to `jpeg_CreateDecompress'") ==

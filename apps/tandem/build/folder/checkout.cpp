@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/build/folder/checkout.hpp"
+#include "apps/tandem/build/folder/cmake_commands.hpp"
 #include "apps/tandem/build/folder/source_text.hpp"
 
 #include <algorithm>
 #include <iterator>
+#include <regex>
 
 namespace tandem::command {
 namespace {
@@ -81,6 +83,19 @@ Paths find_definitions(const fs::path& checkout, const std::string& symbol) {
     for (const auto& file : list_files_below(checkout))
         if (is_source(file) && defines_function(read_text(file), name)) found.push_back(file);
     return distinct(found);
+}
+
+std::vector<std::string> missing_submodules(const fs::path& checkout) {
+    static const std::regex entry("\\s*path\\s*=\\s*(\\S.*?)\\s*");
+    std::vector<std::string> missing;
+    for (const auto& line : read_lines(checkout / ".gitmodules")) {
+        std::smatch found;
+        std::error_code ignored;
+        if (std::regex_match(line, found, entry) &&
+            fs::directory_iterator(checkout / found[1].str(), ignored) == fs::directory_iterator())
+            missing.push_back(found[1]);
+    }
+    return missing;
 }
 
 Paths folders_with(const fs::path& component_folder, const std::string& header) {

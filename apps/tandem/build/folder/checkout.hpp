@@ -28,6 +28,9 @@ std::vector<std::filesystem::path> find_in_checkout(const std::filesystem::path&
 std::vector<std::filesystem::path> find_definitions(const std::filesystem::path& checkout,
                                                     const std::string& symbol);
 
+/// Returns the folders of the checkout's git submodules that are empty or missing, as .gitmodules names them.
+std::vector<std::string> missing_submodules(const std::filesystem::path& checkout);
+
 /// Returns the folders to name with -I so that the compiler finds the header or omniidl the IDL file: in the checkout,
 /// or else in or beside the component's folder.
 std::vector<std::filesystem::path> folders_with(const std::filesystem::path& component_folder,

@@ -24,6 +24,10 @@ bool is_ignored_folder(const fs::path& folder) {
 
 bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
+bool contains_main(const std::string& code) {
+    return code.find("int main(") != std::string::npos || code.find("int main (") != std::string::npos;
+}
+
 } // namespace
 
 std::string read_text(const fs::path& file) {
@@ -68,9 +72,10 @@ bool defines_function(const std::string& source, const std::string& function) {
         const auto body = text.find_first_not_of(" \t\r\n", close == std::string::npos ? close : close + 1);
         found = close != std::string::npos && body != std::string::npos && text[body] == '{';
     }
-    return found && text.find("int main(") == std::string::npos &&
-           text.find("int main (") == std::string::npos;
+    return found && !contains_main(text);
 }
+
+bool defines_main(const std::string& source) { return contains_main(strip_comments(source)); }
 
 std::string to_posix_path(std::string text) {
     std::replace(text.begin(), text.end(), '\\', '/');

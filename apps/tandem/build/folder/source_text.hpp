@@ -18,6 +18,9 @@ std::string strip_comments(std::string text);
 /// sources with a main(), because they are separate programs.
 bool defines_function(const std::string& source, const std::string& function);
 
+/// Returns whether the source defines main(): it is a separate program.
+bool defines_main(const std::string& source);
+
 /// Replaces '\' by '/', because project files and includes are often written on Windows.
 std::string to_posix_path(std::string text);
 

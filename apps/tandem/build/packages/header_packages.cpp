@@ -107,7 +107,7 @@ bool is_windows_header(const std::string& header) {
         "io.h",       "dinput.h",  "d3d9.h",     "dshow.h",    "vfw.h",      "xinput.h",  "setupapi.h",
         "hidsdi.h",   "crtdbg.h",  "sapi.h",     "initguid.h", "shellapi.h", "shlobj.h",  "commctrl.h",
         "richedit.h", "mmreg.h",   "dsound.h",   "targetver.h"};
-    return names.count(to_lower(header)) != 0;
+    return names.count(to_lower(header)) != 0 || header.starts_with("progid:"); // of #import
 }
 
 bool is_old_opencv_header(const std::string& header) {

@@ -48,7 +48,7 @@ PREFERRED = {"libgtk2.0-dev", "libgtkmm-2.4-dev", "liblua5.3-dev", "libsdl1.2-de
 ROOTS = {"eigen3", "opencv4", "qt5", "SDL", "SDL2", "libxml2", "libpng16", "openni2", "libftdi1", "ni", "jsoncpp", "irrlicht",
          "mariadb"}
 # Folders that another name leads to.
-LINKS = {"mysql/": ("libmariadb-dev", "libmariadb", ".")}
+LINKS = {"mysql/": ("libmariadb-dev", "libmariadb", "."), "glut.h": ("libglut-dev", "glut", "~GL")}
 
 
 def fetch(folder, suite):

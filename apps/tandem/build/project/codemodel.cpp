@@ -8,7 +8,6 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 
 namespace tandem::command {
 namespace {
@@ -30,10 +29,27 @@ void add_new(std::vector<T>& all, T value) {
     if (std::find(all.begin(), all.end(), value) == all.end()) all.push_back(std::move(value));
 }
 
+// Returns the words of a fragment. CMake quotes those with blanks for the shell.
 std::vector<std::string> words_of(const Json& fragment) {
-    std::istringstream text(fragment.value("fragment", ""));
     std::vector<std::string> words;
-    for (std::string word; text >> word;) words.push_back(word);
+    bool in_word = false, escaped = false;
+    char quote = 0;
+    for (const char c : fragment.value("fragment", "")) {
+        if (!escaped && quote == 0 && (c == ' ' || c == '\t' || c == '\n')) {
+            in_word = false;
+            continue;
+        }
+        if (!in_word) words.emplace_back();
+        in_word = true;
+        if (!escaped && c == '\\')
+            escaped = true;
+        else if (!escaped && (quote == 0 ? c == '"' || c == '\'' : c == quote))
+            quote = quote == 0 ? c : 0;
+        else {
+            words.back() += c;
+            escaped = false;
+        }
+    }
     return words;
 }
 
@@ -168,7 +184,7 @@ class Reader {
                     add_new(target.library_dirs, fs::path(word.substr(2)));
                 else if (word.rfind("-l", 0) == 0)
                     add_new(target.libraries, word.substr(2));
-                else if (word[0] == '/' && is_file(word))
+                else if (word.rfind('/', 0) == 0 && is_file(word))
                     add_new(target.libraries, word);
             }
     }

@@ -28,6 +28,9 @@ macro(find_package)
   set(tandem_arguments ${ARGV})
   if(NOT ("${ARGV0}" STREQUAL "PkgConfig" AND PkgConfig_FOUND)) # it would replace pkg_check_modules()
     list(TRANSFORM tandem_arguments REPLACE "^REQUIRED$" COMPONENTS) # components may follow REQUIRED
+    if("${ARGV0}" MATCHES "^OpenRTM") # projects have their own FindOpenRTM.cmake, for installations of OpenRTM-aist
+      list(INSERT tandem_arguments 1 CONFIG)
+    endif()
     _find_package(${tandem_arguments})
     set(tandem_arguments ${ARGV})
     tandem_note_missing(${ARGV0} ${ARGV0})
@@ -42,6 +45,12 @@ macro(pkg_check_modules prefix)
   set(tandem_arguments ${ARGV})
   tandem_note_missing(${prefix} ${tandem_modules})
 endmacro()
+function(configure_file) # of the project's own package, whose templates may be missing
+  get_filename_component(tandem_template "${ARGV0}" ABSOLUTE)
+  if(EXISTS "${tandem_template}")
+    _configure_file(${ARGV})
+  endif()
+endfunction()
 function(add_dependencies) # on targets of documentation or IDL that do not exist
 endfunction()
 function(message)

@@ -41,6 +41,17 @@ TEST_CASE("headers with a version of OpenRTM in their path, or backslashes, are 
     CHECK(text_of(written / "coil-2.0/coil/Time.h") == "#include <coil/Time.h>\n");
 }
 
+TEST_CASE("a neighbour of a header may be the IDL file that it is made from") {
+    const Folder folder;
+    folder.write("Arm/Arm.cpp", "#include <hand/idl/Grip.hh>\n#include \"PalmStub.h\"\n");
+    folder.write("hand/idl/Grip.idl", "");
+    const auto grip = folder.path() / "hand/idl/Grip.idl";
+    const auto scan = scan_includes(folder.path() / "Arm", {folder.path() / "Arm/Arm.cpp"}, {},
+                                    {{"hand/idl/Grip.hh", grip}, {"PalmStub.h", "/hands/Palm.idl"}});
+    CHECK(scan.forwards == std::map<std::string, std::string>{{"hand/idl/Grip.hh", "Grip.hh"}});
+    CHECK(scan.idl_files == std::vector<fs::path>{grip, "/hands/Palm.idl"});
+}
+
 // As in repositories that contain the headers of OPRoS and further devices beside them.
 TEST_CASE("a header below a copy of the OPRoS headers includes those of Tandem, not the copy") {
     const Folder folder;

@@ -146,6 +146,38 @@ TEST_CASE("a library that a project makes from object libraries has their source
     CHECK(found.target.libraries == Names{"m"});
 }
 
+TEST_CASE("a project with only a program gives the sources without main()") {
+    const Folder folder;
+    const auto project = GENERATE("project(arms CXX)\n", "project(arms CXX)\ninclude(missing.cmake)\n");
+    folder.write("CMakeLists.txt",
+                 std::string(project) + "add_executable(ArmComp Arm.cpp Part.cpp ArmComp.cpp)\n");
+    folder.write("Arm.cpp", module_text);
+    folder.write("ArmComp.cpp", "int main(int, char**) {\n}\n");
+    for (const char* other : {"Part.cpp", "Old.cpp"}) folder.write(other, "");
+    CMakeProjects projects("", 60);
+    const auto found = select(folder.path(), projects);
+    CHECK(names_of(found.sources) == Names{"Arm.cpp", "Part.cpp"});
+    CHECK(names_of(found.left_out) == Names{"ArmComp.cpp", "Old.cpp"});
+}
+
+TEST_CASE("libraries and folders of a project may have blanks and quotes in their names") {
+    const Folder folder;
+    folder.write("lib of arms/libgrip 2.a", "");
+    folder.write("it's/libpalm.a", "");
+    folder.write(
+        "CMakeLists.txt",
+        "cmake_minimum_required(VERSION 3.16)\nproject(arms CXX)\nlink_directories(\"${CMAKE_SOURCE_DIR}/lib "
+        "of arms\")\n"
+        "add_library(Arm MODULE Arm.cpp)\ntarget_link_libraries(Arm finger\n"
+        "  \"${CMAKE_SOURCE_DIR}/lib of arms/libgrip 2.a\" \"${CMAKE_SOURCE_DIR}/it's/libpalm.a\")\n");
+    folder.write("Arm.cpp", module_text);
+    CMakeProjects projects("", 60);
+    const auto target = select(folder.path(), projects).target;
+    const auto top = fs::canonical(folder.path());
+    CHECK(target.libraries == Names{"finger", top / "lib of arms/libgrip 2.a", top / "it's/libpalm.a"});
+    CHECK(target.library_dirs == std::vector<fs::path>{top / "lib of arms"});
+}
+
 TEST_CASE("a standard is that of the project, also by the name of its draft, and none is older than C++11") {
     const Folder folder;
     folder.write("Arm.cpp", module_text);
@@ -158,6 +190,26 @@ TEST_CASE("a standard is that of the project, also by the name of its draft, and
         INFO(option << ", " << target.name << " " << projects.problem());
         CHECK(target.standard == standard);
     }
+}
+
+// As RTCBuilder and others make projects: for installations of OpenRTM-aist, and with templates that are not checked in.
+TEST_CASE("a project's own FindOpenRTM.cmake and missing templates do not keep it from being configured") {
+    const Folder folder;
+    folder.write("cmake/FindOpenRTM.cmake", "file(STRINGS /nowhere/rtm/version.h lines)\n");
+    folder.write("CMakeLists.txt", "project(arms CXX)\nset(CMAKE_MODULE_PATH ${CMAKE_SOURCE_DIR}/cmake)\n"
+                                   "find_package(OpenRTM REQUIRED)\nset(JOINTS 6)\n"
+                                   "configure_file(arms-config.cmake.in arms-config.cmake)\n"
+                                   "configure_file(joints.h.in joints.h @ONLY)\n"
+                                   "include_directories(${CMAKE_CURRENT_BINARY_DIR})\n"
+                                   "add_library(Arm SHARED Arm.cpp)\n");
+    folder.write("joints.h.in", "#define JOINTS @JOINTS@\n");
+    folder.write("Arm.cpp", module_text);
+    CMakeProjects projects("", 60);
+    const auto target = select(folder.path(), projects).target;
+    INFO(projects.problem());
+    CHECK(projects.problem().empty());
+    REQUIRE(target.include_dirs.size() == 1);
+    CHECK(fs::exists(target.include_dirs[0] / "joints.h"));
 }
 
 TEST_CASE("a kept folder serves another project, too") {

@@ -362,10 +362,10 @@ TEST_CASE("the old headers of OpenCV are found where OpenCV 4 is, and its packag
     fs::current_path(here);
     INFO(info.errors);
     CHECK(info.exit_code == 0);
-    // With the header of OpenCV 2 and 3 that had the C API as well.
+    // With the header of OpenCV 2 and 3 that had the C API as well, also before cv.h.
     folder.write("Eye/Eye.cpp", "#include <Component.h>\n#include <opencv2/opencv.hpp>\n"
                                 "class Eye : public Component {\n  IplImage* image;\n};\n"
-                                "int gray() { return CV_GRAY2RGB; }\n"
+                                "#include <opencv/cv.h>\nint gray() { return CV_GRAY2RGB; }\n"
                                 "extern \"C\" {\nComponent* getComponent() { return new Eye; }\n"
                                 "void releaseComponent(Component* com) { delete com; }\n}\n");
     const auto with_cpp_header = build({folder.path() / "Eye"});
