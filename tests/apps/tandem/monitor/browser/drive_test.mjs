@@ -105,6 +105,7 @@ test("a page without the token sees everything and drives nothing", async () => 
 
 test("a command without what it needs says so, and sends nothing", async () => {
   await page.locator("#control-anchor").click();
+  await page.locator("summary", { hasText: "Other commands" }).click();
   await page.locator("#control-arguments").fill(" ");
   for (const command of ["activate", "connect", "conf"]) {
     await page.locator(`#control-form button[value="${command}"]`).click();
