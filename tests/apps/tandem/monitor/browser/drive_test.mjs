@@ -56,6 +56,8 @@ test("the address that is printed has the token, and it leaves the address bar",
   assert.doesNotMatch(await (await fetch(`${address}/api/state`)).text(), new RegExp(monitor.url.split("=")[1]));
 });
 
+test("wheelchair says where to drive", () => chair.child.line(/drive with a gamepad, or run tandem monitor --control and open the view Wheelchair/));
+
 test("the stick on the page drives the chair, and a released one stops it", async () => {
   await page.waitForSelector("#chair-stick.drives");
   await hold(page, 0, 0.6);
