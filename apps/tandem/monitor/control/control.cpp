@@ -107,7 +107,7 @@ PlainJson answer(const PlainJson& request, bool ok, const std::string& text) {
 } // namespace
 
 void Programs::run(const std::vector<std::string>& command, Done done) {
-    if (jobs_.size() >= max_running) return done(false, "four commands are already running; try again");
+    if (jobs_.size() >= max_running) return done(false, "eight commands are already running; try again");
     process::FileDescriptor output(memfd_create("tandem-command", MFD_CLOEXEC));
     process::ChildOptions options;
     options.output = options.errors = output.get();

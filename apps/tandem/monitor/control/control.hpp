@@ -21,7 +21,7 @@ namespace tandem::monitor {
 /// Runs commands without blocking the server. [one thread]
 class Programs {
   public:
-    static constexpr std::size_t max_running = 4;
+    static constexpr std::size_t max_running = 8;
     static constexpr std::chrono::seconds max_time{15};
     static constexpr std::size_t max_output = 4 << 20; ///< bytes passed on: JSON of a large system
 

@@ -4,12 +4,12 @@
 const mostLines = 5000;
 const ranks = {trace: 0, debug: 0, info: 1, warn: 2, warning: 2, error: 3, critical: 3, err: 3};
 
-/** Returns what a line of a log says: {time, level, rank, component, text}. Other programs write other lines, which have only a text. */
+/** Returns what a line of a log says: {at, time, level, rank, component, text}; `at` with the date. Other programs write other lines, which have only a text. */
 export function lineIn(text) {
   const found = text.match(/^\[(\d{4}-\d\d-\d\d) (\d\d:\d\d:\d\d\.\d+)\] \[(\w+)\] ([^:]*): (.*)$/);
-  if (!found) return {time: '', level: '', rank: 1, component: '', text};
-  const [, , time, level, component, rest] = found;
-  return {time, level, rank: ranks[level.toLowerCase()] ?? 1, component, text: rest};
+  if (!found) return {at: '', time: '', level: '', rank: 1, component: '', text};
+  const [, date, time, level, component, rest] = found;
+  return {at: `${date} ${time}`, time, level, rank: ranks[level.toLowerCase()] ?? 1, component, text: rest};
 }
 
 export class LogStore {
@@ -18,14 +18,18 @@ export class LogStore {
   /** Takes an answer to the request `log`. Returns whether there are new lines. */
   take(logs) {
     const before = this.next;
-    for (const {id, hosts, text, next} of logs) {
+    for (const {id, hosts, text: lines, next} of logs) {
       this.offsets[id] = next;
       for (const host of hosts) this.hosts.add(host);
-      for (const line of text.split('\n').filter((each) => each !== ''))
-        this.lines.push({number: this.next++, host: hosts.join(', '), ...lineIn(line)});
+      let at = this.lines.at(-1)?.at ?? ''; // of a line without a time: that of the line before
+      for (const text of lines.split('\n').filter((each) => each !== '')) {
+        const line = lineIn(text);
+        at = line.at ||= at;
+        this.lines.push({number: this.next++, host: hosts.join(', '), ...line});
+      }
     }
     if (this.next === before) return false;
-    this.lines.sort((a, b) => a.time && b.time && a.time !== b.time ? a.time < b.time ? -1 : 1 : a.number - b.number);
+    this.lines.sort((a, b) => a.at === b.at ? a.number - b.number : a.at < b.at ? -1 : 1);
     this.lines = this.lines.slice(-mostLines);
     return true;
   }

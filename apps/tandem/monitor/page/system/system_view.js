@@ -40,15 +40,20 @@ export class SystemView {
     this.read();
   }
 
+  /** Asks for the system, once more if this is called meanwhile. */
   async read() {
+    this.wanted = true;
     if (this.reading) return;
     this.reading = true;
-    const [tree, opros] = await Promise.all([this.connection.ask({op: 'rtm', command: 'tree', json: true}),
-      this.connection.ask({op: 'opros', command: 'list', json: true})]);
+    while (this.wanted) {
+      this.wanted = false;
+      const [tree, opros] = await Promise.all([this.connection.ask({op: 'rtm', command: 'tree', json: true}),
+        this.connection.ask({op: 'opros', command: 'list', json: true})]);
+      this.components = componentsIn(jsonIn(tree.text), jsonIn(opros.text));
+      setText(find('system-note'), this.components.length > 0 ? '' : `No component answers. ${tree.ok ? '' : tree.text.trim()}`);
+      this.draw();
+    }
     this.reading = false;
-    this.components = componentsIn(jsonIn(tree.text), jsonIn(opros.text));
-    setText(find('system-note'), this.components.length > 0 ? '' : `No component answers. ${tree.ok ? '' : tree.text.trim()}`);
-    this.draw();
   }
 
   draw() {

@@ -34,7 +34,7 @@ test("the components of both models are listed with their states", async () => {
 });
 
 test("a component is deactivated, and undo activates it", async () => {
-  await page.getByRole("button", { name: "Deactivate JoystickComp0" }).click();
+  await page.getByRole("button", { name: "Deactivate JoystickComp0", exact: true }).click();
   await answerIs(/^✓ Deactivate JoystickComp0: done/);
   await stateIs("JoystickComp0", /^INACTIVE$/);
   await page.locator("#system-undo").click();
@@ -44,9 +44,9 @@ test("a component is deactivated, and undo activates it", async () => {
 });
 
 test("an OPRoS component is stopped and started", async () => {
-  await page.getByRole("button", { name: "Stop ControlComp" }).click();
+  await page.getByRole("button", { name: "Stop ControlComp", exact: true }).click();
   await stateIs("ControlComp", /^INACTIVE$/);
-  await page.getByRole("button", { name: "Start ControlComp" }).click();
+  await page.getByRole("button", { name: "Start ControlComp", exact: true }).click();
   await stateIs("ControlComp", /^✓ ACTIVE$/);
 });
 
@@ -68,8 +68,8 @@ test("a connection is removed and made again, and two ports that do not fit say 
   await page.waitForFunction((count) => document.querySelectorAll("#system-connections li").length === count, before);
 });
 
-test("a property is set, a refused value says so, and undo sets the old value", async () => {
-  await page.getByRole("button", { name: "Parameters of ControlComp" }).click();
+test("a property is set, and undo sets the old value", async () => {
+  await page.getByRole("button", { name: "Parameters of ControlComp", exact: true }).click();
   const gain = () => page.getByLabel("ratio_gain of property");
   await gain().fill("17");
   await gain().press("Enter");
@@ -103,7 +103,7 @@ test("the log has the lines of the hosts, by level and text", async () => {
     return { line: lineIn("[2026-01-02 03:04:06.000] [warn] rtm_host: a: b"), offsets: store.offsets, all: store.select(0, "", 10).count,
       bad: store.select(3, "", 10).lines.map(({ text: of }) => of), found: store.select(0, "LEG", 10).lines.map(({ text: of }) => of) };
   });
-  assert.deepEqual(result.line, { time: "03:04:06.000", level: "warn", rank: 2, component: "rtm_host", text: "a: b" });
+  assert.deepEqual(result.line, { at: "2026-01-02 03:04:06.000", time: "03:04:06.000", level: "warn", rank: 2, component: "rtm_host", text: "a: b" });
   assert.deepEqual([result.offsets, result.all, result.bad, result.found], [{ a: 90 }, 3, ["stuck"], ["fine"]]);
   await page.locator("#events-section").screenshot({ path: join(process.env.TANDEM_PICTURES, "log.png") });
   assert.deepEqual(page.errors, []);
