@@ -66,6 +66,9 @@ void write_files(const Options& options, const Report& report) {
 int perform_runs(Options options) {
     std::optional<LiveDrive> live;
     if (options.drive) {
+        command::print_note(
+            "wheelchair: drive with a gamepad, or run tandem monitor --control and open the view "
+            "Wheelchair of its page\n");
         live.emplace();
         options.joystick_file = live->stick_file();
         options.drive_socket = live->socket();

@@ -82,7 +82,11 @@ std::optional<Gamepad> Gamepad::find() {
         if (ioctl(file.get(), EVIOCGBIT(EV_KEY, keys.size()), keys.data()) < 0) continue;
         if (!has_bit(keys, BTN_GAMEPAD) && !has_bit(keys, BTN_JOYSTICK)) continue;
         const auto x = axis_of(file.get(), ABS_X), y = axis_of(file.get(), ABS_Y);
-        if (x && y) return Gamepad(std::move(file), *x, *y);
+        std::array<char, 128> name{};
+        ioctl(file.get(), EVIOCGNAME(name.size() - 1), name.data()); // without a name it stays empty
+        if (x && y)
+            return Gamepad(std::move(file), *x, *y,
+                           fmt::format("{} ({})", name.data(), entry.path().string()));
     }
     return {};
 }
@@ -147,7 +151,10 @@ void LiveDrive::look_for_gamepad() {
     if (gamepad_ || monotonic_seconds() < next_look_) return;
     next_look_ = monotonic_seconds() + look_pause;
     gamepad_ = Gamepad::find();
-    if (gamepad_) command::print_note("wheelchair: driving with the gamepad\n");
+    if (gamepad_)
+        command::print_note(
+            "wheelchair: driving with the gamepad {}; its button B (circle) is the emergency stop\n",
+            gamepad_->name());
 }
 
 void LiveDrive::drive_by_gamepad() {

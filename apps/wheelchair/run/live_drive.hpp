@@ -25,7 +25,8 @@ class Gamepad {
     };
 
     /// `file`: an open non-blocking device, or another source of input_event.
-    Gamepad(process::FileDescriptor file, Axis x, Axis y) : file_(std::move(file)), x_(x), y_(y) {}
+    Gamepad(process::FileDescriptor file, Axis x, Axis y, std::string name = {})
+        : file_(std::move(file)), x_(x), y_(y), name_(std::move(name)) {}
 
     /// Returns the first readable device in /dev/input with two axes and the buttons of a gamepad or joystick.
     static std::optional<Gamepad> find();
@@ -36,12 +37,15 @@ class Gamepad {
     /// last call.
     JoystickPosition position();
     int fd() const { return file_.get(); }
+    /// Returns what the device calls itself, and its file.
+    const std::string& name() const { return name_; }
 
   private:
     void handle(const input_event& event);
 
     process::FileDescriptor file_;
     Axis x_, y_;
+    std::string name_;
     bool stop_ = false;
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/monitor/control/control.hpp"
 
+#include "apps/tandem/monitor/control/host_logs.hpp"
+#include "apps/tandem/monitor/control/recordings.hpp"
 #include "shm/segment/segment_file.hpp"
 
 #include <algorithm>
@@ -8,10 +10,9 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
-#include <ctime>
 #include <filesystem>
-#include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <map>
 #include <set>
 #include <stdexcept>
 #include <sys/mman.h>
@@ -28,7 +29,9 @@ constexpr std::chrono::milliseconds look_pause{20};
 
 /// Returns the start of a program's output. Replaces all but newlines and printable ASCII by '?'.
 std::string text_in(int file) {
-    std::string text(Programs::max_output, '\0');
+    const off_t size = lseek(file, 0, SEEK_END);
+    std::string text(std::min(Programs::max_output, static_cast<std::size_t>(std::max<off_t>(size, 0))),
+                     '\0');
     const auto bytes = pread(file, text.data(), text.size(), 0);
     text.resize(bytes < 0 ? 0 : static_cast<std::size_t>(bytes));
     for (char& c : text)
@@ -66,6 +69,22 @@ std::vector<std::string> arguments_in(const PlainJson& list) {
     return arguments;
 }
 
+/// Appends the arguments of a sub-command: `arguments`, and if it has them, `properties` of a connection (KEY=VALUE) or the
+/// configuration set to change or to activate.
+void add_arguments(const PlainJson& request, const std::string& name, std::vector<std::string>& command) {
+    for (const auto& argument : arguments_in(request.at("arguments"))) command.push_back(argument);
+    if (name == "connect" && request.contains("properties"))
+        for (const auto& property : arguments_in(request["properties"]))
+            command.insert(command.end(), {"-p", property});
+    if (name == "disconnect" && request.contains("connection"))
+        command.insert(command.end(),
+                       {"--id", arguments_in(PlainJson::array({request["connection"]})).front()});
+    for (const char* const option : {"set", "activate"})
+        if (name == "conf" && request.contains(option))
+            command.insert(command.end(), {std::string("--") + option,
+                                           arguments_in(PlainJson::array({request[option]})).front()});
+}
+
 /// Returns the socket for stick positions, as published by the port `chair` of that link; empty if there is none.
 std::string stick_socket_of(const State& state, const std::string& link_name) {
     for (const LinkState& link : state.links)
@@ -88,7 +107,7 @@ PlainJson answer(const PlainJson& request, bool ok, const std::string& text) {
 } // namespace
 
 void Programs::run(const std::vector<std::string>& command, Done done) {
-    if (jobs_.size() >= max_running) return done(false, "four commands are already running; try again");
+    if (jobs_.size() >= max_running) return done(false, "eight commands are already running; try again");
     process::FileDescriptor output(memfd_create("tandem-command", MFD_CLOEXEC));
     process::ChildOptions options;
     options.output = options.errors = output.get();
@@ -154,9 +173,10 @@ void Control::handle(const std::string& text, const Reply& reply) {
     try {
         const auto op = request.value("op", std::string());
         if (op == "drive") return drive(request, reply);
-        if (op == "rtm") return run_rtm(request, reply);
+        if (op == "rtm" || op == "opros") return run_tool(request, reply);
         if (op == "record") return record(request, reply);
-        reply(answer(request, false, "expected op drive, rtm or record"));
+        if (op == "recordings" || op == "log") return report(request, op, reply);
+        reply(answer(request, false, "expected op drive, rtm, opros, record, recordings or log"));
     } catch (const std::exception& error) { // from JSON: a member has another type
         reply(answer(request, false, error.what()));
     }
@@ -176,18 +196,27 @@ void Control::drive(const PlainJson& request, const Reply& reply) {
     if (request.contains("id")) reply(answer(request, true, "sent"));
 }
 
-void Control::run_rtm(const PlainJson& request, const Reply& reply) {
-    static const std::set<std::string> allowed{"list",    "activate",   "deactivate", "reset",
-                                               "connect", "disconnect", "conf"};
-    const auto name = request.at("command").get<std::string>();
-    if (allowed.count(name) == 0) return reply(answer(request, false, "unknown command: " + name));
-    std::vector<std::string> command{program_, "rtm", name};
-    if (name != "list")
-        for (const auto& argument : arguments_in(request.at("arguments"))) command.push_back(argument);
-    const PlainJson asked{{"op", "rtm"}, {"id", request.value("id", PlainJson())}};
+/// Runs a sub-command of `tandem rtm` or `tandem opros`.
+void Control::run_tool(const PlainJson& request, const Reply& reply) {
+    static const std::map<std::string, std::set<std::string>> allowed{
+        {"rtm", {"list", "tree", "info", "activate", "deactivate", "reset", "connect", "disconnect", "conf"}},
+        {"opros", {"list", "info", "start", "stop", "recover", "conf"}}};
+    const auto tool = request.at("op").get<std::string>(), name = request.at("command").get<std::string>();
+    if (allowed.at(tool).count(name) == 0) return reply(answer(request, false, "unknown command: " + name));
+    std::vector<std::string> command{program_, tool, name};
+    if (name != "list" && name != "tree") add_arguments(request, name, command);
+    if (request.value("json", false)) command.emplace_back("--json");
+    const PlainJson asked{{"op", tool}, {"id", request.value("id", PlainJson())}};
     programs_.run(command, [reply, asked](bool success, const std::string& output) {
         reply(answer(asked, success, output));
     });
+}
+
+void Control::report(const PlainJson& request, const std::string& op, const Reply& reply) const {
+    PlainJson result = answer(request, true, "");
+    result[op] = op == "log" ? read_host_logs(state_(), request.value("from", PlainJson::object()))
+                             : list_recordings(std::filesystem::current_path());
+    reply(result);
 }
 
 void Control::record(const PlainJson& request, const Reply& reply) {
@@ -205,8 +234,7 @@ void Control::record(const PlainJson& request, const Reply& reply) {
                        fmt::format("link '{}' does not exist; tandem shm list shows existing links", link)));
         command.push_back(link);
     }
-    const std::string name = fmt::format("tandem-{:%Y%m%d-%H%M%S}.mcap", fmt::localtime(std::time(nullptr)));
-    recorded_file_ = (std::filesystem::current_path() / name).string();
+    recorded_file_ = (std::filesystem::current_path() / new_recording_name()).string();
     command.insert(command.end(), {"-o", recorded_file_});
     recorder_.reset();
     recorder_.emplace(command);

@@ -21,9 +21,9 @@ namespace tandem::monitor {
 /// Runs commands without blocking the server. [one thread]
 class Programs {
   public:
-    static constexpr std::size_t max_running = 4;
+    static constexpr std::size_t max_running = 8;
     static constexpr std::chrono::seconds max_time{15};
-    static constexpr std::size_t max_output = 16 << 10; ///< bytes passed on
+    static constexpr std::size_t max_output = 4 << 20; ///< bytes passed on: JSON of a large system
 
     /// Called with the command's success (exit code 0) and its output, including errors.
     using Done = std::function<void(bool success, const std::string& output)>;
@@ -73,8 +73,9 @@ class Control {
 
   private:
     void drive(const nlohmann::json& request, const Reply& reply);
-    void run_rtm(const nlohmann::json& request, const Reply& reply);
+    void run_tool(const nlohmann::json& request, const Reply& reply);
     void record(const nlohmann::json& request, const Reply& reply);
+    void report(const nlohmann::json& request, const std::string& op, const Reply& reply) const;
 
     std::function<const State&()> state_;
     std::string token_, program_;

@@ -4,9 +4,12 @@ import {Chair, findChair} from './chair.js';
 import {Connection, ControlPanel} from './control.js';
 import {KeyedList, make, setClass, setText} from './dom.js';
 import {Graph} from './graph.js';
+import {LogView} from './system/log_view.js';
 import {PlotsPanel} from './plots.js';
+import {RecordingsView} from './system/recordings_view.js';
 import {SampleStore} from './samples.js';
 import {requestState, socketAddress} from './server.js';
+import {SystemView} from './system/system_view.js';
 import {CallTable, PortTable} from './tables.js';
 import {Tabs} from './tabs.js';
 import {TickTable} from './ticks.js';
@@ -19,7 +22,8 @@ const signs = {well: '✓', unseen: '?', setting: '≠', inactive: '○', missin
 
 let newest = null;
 const connection = new Connection(), control = new ControlPanel(connection), store = new SampleStore();
-const values = new Values(), plots = new PlotsPanel(store), chair = new Chair(connection, store);
+const log = new LogView(connection), recordings = new RecordingsView(control);
+const system = new SystemView(connection), values = new Values(), plots = new PlotsPanel(store), chair = new Chair(connection, store);
 
 /** The address of the page contains the shown view or the chosen port, so that it survives a reload and works as a bookmark. */
 function keptPlace() {
@@ -97,9 +101,11 @@ const views = {
   'plots-section': (state) => { plots.show(state); values.show(state); },
   'links-section': (state) => { ports.show(state.links); calls.show(state.links); },
   'ticks-section': (state) => ticks.show(state),
+  'control-section': (state) => system.show(state),
   'events-section': (state) => {
     events.show([...state.events].reverse(), (event) => `${event.number} ${event.time_ms}`);
     find('events-empty').hidden = state.events.length > 0;
+    log.show(state);
   },
 };
 const tabs = new Tabs(find('views'), (id) => {
@@ -120,6 +126,7 @@ function show(state) {
   setText(find('events-count'), failures > 0 ? `✕ ${failures}` : '');
   chair.show(state);
   control.show(state);
+  recordings.show(state);
   views[tabs.current]?.(state);
 }
 
@@ -173,6 +180,10 @@ function connect() {
   };
 }
 
+find('recording-now').addEventListener('click', (event) => {
+  event.preventDefault();
+  tabs.show('control-section');
+});
 find('filter').addEventListener('input', () => {
   if (newest !== null) ports.show(newest.links);
 });

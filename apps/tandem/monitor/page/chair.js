@@ -3,6 +3,7 @@
 // geometry: metres and degrees, x to the right, y up, angles to the left.
 import {makeSvg, number, setAttributes, setClass, setText} from './dom.js';
 import {EmergencyStop} from './emergency.js';
+import {MapView} from './shapes/map_view.js';
 import {PlotView, loadPlots} from './plot_view.js';
 import {Stick} from './stick.js';
 import {keyOfPort} from './tables.js';
@@ -11,6 +12,7 @@ const find = (id) => document.getElementById(id);
 const track = 0.57, wheelbase = 0.5, radius = 0.17; // of drive wheels and casters, m
 const mostPoints = 3000;
 const fastest = 12; // rad/s of a wheel at the end of its bar: 2 m/s
+const surroundings = 8; // m that the map shows around the chair
 const slowest = 0.01; // m/s; below, the chair stands
 const states = [null, 'stopped, since a reference was late: release the stick', 'emergency stop',
   'fault: press Ctrl-C where wheelchair runs, and start it again'];
@@ -32,23 +34,29 @@ export function findChair(state) {
   return null;
 }
 
+/** Returns the chair from above, looking to the right. */
+function createBody() {
+  const body = makeSvg('g', {class: 'chair'});
+  const wheel = (x, y, size) => makeSvg('rect', {x: x - size, y: y - 0.04, width: 2 * size, height: 0.08, rx: 0.03, class: 'wheel'});
+  body.append(
+    makeSvg('rect', {x: -0.25, y: -0.22, width: 0.95, height: 0.44, rx: 0.08, class: 'seat'}),
+    wheel(0, track / 2, radius), wheel(0, -track / 2, radius), wheel(wheelbase, 0.24, 0.09), wheel(wheelbase, -0.24, 0.09),
+    makeSvg('path', {d: 'M 0.2 -0.12 L 0.55 0 L 0.2 0.12 z', class: 'nose'}));
+  return body;
+}
+
 export class Chair {
   /** `connection`: of control.js; the stick uses it. `store`: of samples.js, for the steering angle. */
   constructor(connection, store) {
     Object.assign(this, {link: null, path: [], store});
     this.steering = new PlotView(find('steering'), {curves: [], seconds: 30, range: null}, store);
-    const map = find('chair-map');
-    this.grid = makeSvg('path', {class: 'grid'});
-    this.trace = makeSvg('polyline', {class: 'trace'});
-    this.body = makeSvg('g', {class: 'chair'});
-    const wheel = (x, y, size) => makeSvg('rect', {x: x - size, y: y - 0.04, width: 2 * size, height: 0.08, rx: 0.03, class: 'wheel'});
-    this.body.append(
-      makeSvg('rect', {x: -0.25, y: -0.22, width: 0.95, height: 0.44, rx: 0.08, class: 'seat'}),
-      wheel(0, track / 2, radius), wheel(0, -track / 2, radius), wheel(wheelbase, 0.24, 0.09), wheel(wheelbase, -0.24, 0.09),
-      makeSvg('path', {d: 'M 0.2 -0.12 L 0.55 0 L 0.2 0.12 z', class: 'nose'}));
-    const world = makeSvg('g', {transform: 'scale(1,-1)'}); // y points up
-    world.append(this.grid, this.trace, this.body);
-    map.append(world);
+    this.map = new MapView(find('chair-map'), createBody());
+    this.whole = false; // shows the whole path, else the surroundings of the chair
+    find('chair-whole').addEventListener('click', () => {
+      this.whole = !this.whole;
+      setAttributes(find('chair-whole'), {'aria-pressed': this.whole});
+      if (this.newest) this.drawMap(this.newest);
+    });
     this.createStick();
     this.stick = new Stick(find('chair-stick'), [90, 92], 66, connection);
     this.stick.onchange = (drives) => setText(find('drive-hint'), drives
@@ -78,7 +86,7 @@ export class Chair {
       return;
     }
     if (chair.link !== this.link || (this.time ?? 0) > chair.t) this.path = []; // another run
-    Object.assign(this, {link: chair.link, time: chair.t});
+    Object.assign(this, {link: chair.link, time: chair.t, newest: chair});
     find('drive-bar').hidden = !chair.drive || !state.control.allowed;
     this.emergency.show(chair.link, chair);
     setText(find('chair-state'), describe(chair));
@@ -107,20 +115,11 @@ export class Chair {
     const last = this.path.at(-1);
     if (!last || Math.hypot(x - last[0], y - last[1]) > 0.01) this.path.push([x, y]);
     if (this.path.length > mostPoints) this.path.shift();
-    setAttributes(this.trace, {points: this.path.map(([px, py]) => `${px.toFixed(3)},${py.toFixed(3)}`).join(' ')});
-    setAttributes(this.body, {transform: `translate(${x.toFixed(3)},${y.toFixed(3)}) rotate(${heading.toFixed(2)})`});
-    // Whole metres, so that the picture does not move while the chair drives within it.
-    const xs = this.path.map((point) => point[0]), ys = this.path.map((point) => point[1]);
-    const left = Math.floor(Math.min(...xs) - 0.7), right = Math.ceil(Math.max(...xs) + 0.7);
-    const low = Math.floor(Math.min(...ys) - 0.7), high = Math.ceil(Math.max(...ys) + 0.7);
-    const side = Math.max(right - left, high - low, 3);
-    const box = [left - (side - (right - left)) / 2, -high - (side - (high - low)) / 2, side, side];
-    setAttributes(find('chair-map'), {viewBox: box.map((number) => number.toFixed(2)).join(' ')});
-    const step = side > 20 ? 5 : 1, lines = [];
-    for (let at = Math.ceil(box[0] / step) * step; at <= box[0] + side; at += step) lines.push(`M ${at} ${-box[1] - side} V ${-box[1]}`);
-    for (let at = Math.ceil((-box[1] - side) / step) * step; at <= -box[1]; at += step) lines.push(`M ${box[0]} ${at} H ${box[0] + side}`);
-    setAttributes(this.grid, {d: lines.join(' ')});
-    setText(find('chair-place'), `x ${x.toFixed(2)} m, y ${y.toFixed(2)} m, heading ${heading.toFixed(0)}°; a square is ${step} m`);
+    this.map.drawTrace(this.path);
+    this.map.place(x, y, heading);
+    if (this.whole) this.map.fit(this.path);
+    else this.map.follow(x, y, surroundings);
+    setText(find('chair-place'), `x ${x.toFixed(2)} m, y ${y.toFixed(2)} m, heading ${heading.toFixed(0)}°; a square is ${this.map.step} m`);
   }
 
   drawStick(chair) {

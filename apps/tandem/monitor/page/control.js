@@ -23,21 +23,20 @@ export class Connection {
   connect(token) {
     if (this.socket && this.socket.readyState <= WebSocket.OPEN) return;
     const socket = this.socket = new WebSocket(socketAddress(`api/control?token=${encodeURIComponent(token)}`));
-    let asked = false, accepted = false;
-    socket.onopen = () => {
-      asked = true;
-      socket.send(JSON.stringify({token}));
-    };
+    this.refused = false;
+    socket.onopen = () => socket.send(JSON.stringify({token}));
     socket.onmessage = (message) => {
       const reply = JSON.parse(message.data);
-      if (reply.op === 'token') this.change(accepted = true);
+      if (reply.op === 'token') {
+        this.refused = !reply.ok;
+        if (reply.ok) this.change(true);
+      }
       const done = this.waiting.get(reply.id);
       this.waiting.delete(reply.id);
       if (done) done(reply);
       else if (reply.op === 'drive') this.driveFailed(reply.text);
     };
     socket.onclose = () => {
-      this.refused = asked && !accepted;
       this.change(false);
       for (const done of this.waiting.values()) done({ok: false, text: 'no answer: the connection is lost'});
       this.waiting.clear();
@@ -95,7 +94,7 @@ export class ControlPanel {
       setText(find('token-answer'), this.token === '' ? '✕ enter the token first' : 'asking ...');
       if (this.token !== '') connection.connect(this.token);
     });
-    find('control-form').addEventListener('submit', (event) => {
+    find('command-form').addEventListener('submit', (event) => {
       event.preventDefault();
       this.run(event.submitter.value);
     });

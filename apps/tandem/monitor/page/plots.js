@@ -4,6 +4,8 @@ import {curveId, labelOf} from './curves.js';
 import {make, setText} from './dom.js';
 import {MemberTree} from './member_tree.js';
 import {PlotView, loadPlots} from './plot_view.js';
+import {ShapeView} from './shapes/shape_view.js';
+import {keyOfPort} from './tables.js';
 
 const find = (id) => document.getElementById(id);
 const mostCurves = 20, mostPlots = 12, firstCurves = 6, mostPorts = 16;
@@ -32,6 +34,7 @@ class PlotCard {
     bar.append(this.title, this.pause, this.spanControl(), this.rangeControl(), this.formControl(),
       button('Remove', () => panel.removePlot(this)));
     this.element.append(bar);
+    this.shape = new ShapeView(this.element, panel.store);
     this.view = new PlotView(this.element, plot, panel.store);
     this.view.onremove = (curve) => panel.change(this, plot.curves.filter((each) => curveId(each) !== curveId(curve)));
     this.view.onpause = (paused) => setText(this.pause, paused ? '▶ Live' : '❚❚ Pause');
@@ -99,14 +102,25 @@ class PlotCard {
     return label;
   }
 
+  /** Draws the newest data. A port with a picture or distances has no curves at first. */
+  draw(Plot, values) {
+    const {plot, view, shape} = this;
+    view.draw(Plot);
+    if (plot.key) shape.draw(plot.key, values.get(plot.key), view.shown, view.paused);
+    view.element.hidden = view.legendElement.hidden = shape.kind !== null && plot.curves.length === 0;
+  }
+
   /** Shows the ports of the curves, and offers the curves that can be computed from them. */
   update() {
     const {values, plot} = this, derived = values.flatMap(({key, name}, i) => [[[i], {key, name, form: 'derivative'}],
       ...values.map((minus, j) => [[i, j], {key, name, form: 'difference', minus}]).filter((_, j) => j !== i)]);
-    setText(this.title, [...new Set(plot.curves.map(({key}) => key.split('/').slice(2).join('/')))].join(', ') || 'empty plot');
+    setText(this.title, [...new Set([...plot.curves, ...plot.key ? [plot] : []].map(({key}) => key.split('/').slice(2).join('/')))].join(', ') || 'empty plot');
     this.forms.replaceChildren(option('', 'derived curve ...'), ...derived.map(([of, curve]) => option(JSON.stringify(of), labelOf(curve, false))));
   }
 }
+
+/** Returns the newest messages of the state by port. */
+const valuesIn = (state) => new Map(state.links.flatMap((link) => link.ports.map((port) => [keyOfPort(link, port), port.value])));
 
 export class PlotsPanel {
   constructor(store) {
@@ -130,7 +144,7 @@ export class PlotsPanel {
 
   keep() {
     sessionStorage.setItem(storage, JSON.stringify(this.cards.map(({plot}) => plot)));
-    const keys = new Set(this.cards.flatMap(({plot}) => plot.curves.flatMap(({key, minus}) => minus ? [key, minus.key] : [key])));
+    const keys = new Set(this.cards.flatMap(({plot}) => [...plot.key ? [plot.key] : [], ...plot.curves.flatMap(({key, minus}) => minus ? [key, minus.key] : [key])]));
     if (this.pending) keys.add(this.pending);
     this.store.follow(this, [...keys].slice(0, mostPorts));
     this.note = keys.size > mostPorts ? `The plots show ${mostPorts} ports at most: remove curves of another port.` : '';
@@ -193,7 +207,10 @@ export class PlotsPanel {
     const known = this.cards.find(({plot}) => !plot.own && plot.key === key);
     const card = known ?? this.cards.find(({plot}) => !plot.own) ?? this.addPlot({curves: [], seconds: 10, range: null, own: false});
     if (!card) return;
-    if (!known) Object.assign(card.plot, {curves: [], key, own: false});
+    if (!known) {
+      Object.assign(card.plot, {curves: [], key, own: false});
+      card.shape.reset();
+    }
     this.tree.expanded.add(key);
     this.pending = card.plot.curves.length > 0 ? null : key; // a second click finds it empty
     this.firstSeen = undefined;
@@ -204,7 +221,8 @@ export class PlotsPanel {
 
   /** The first curves of a chosen port: its signals, as soon as its values have shown which numbers these are. */
   fillPending() {
-    const track = this.store.tracks.get(this.pending);
+    const track = this.store.tracks.get(this.pending), shown = this.cards.find(({plot}) => !plot.own && plot.key === this.pending)?.shape.kind;
+    if (shown === 'picture' || shown === 'polar') return this.finishPending([]);
     if (!track || track.names.length === 0) return;
     const kinds = track.names.map((name) => track.kindOf(name));
     if (kinds.includes(null)) {
@@ -213,15 +231,20 @@ export class PlotsPanel {
     }
     this.firstSeen = undefined;
     const signals = track.names.filter((_, i) => (kinds[i] ?? 'signal') === 'signal');
+    this.finishPending((signals.length > 0 ? signals : track.names).slice(0, firstCurves));
+  }
+
+  finishPending(names) {
     const key = this.pending, card = this.cards.find(({plot}) => !plot.own && plot.key === key);
     this.pending = null;
-    if (card) card.plot.curves = (signals.length > 0 ? signals : track.names).slice(0, firstCurves).map((name) => ({key, name, form: 'value'}));
+    if (card) card.plot.curves = names.map((name) => ({key, name, form: 'value'}));
     this.keep();
   }
 
   /** Called with each state while the view is shown. Starts to draw. */
   show(state) {
     this.state = state;
+    this.values = valuesIn(state);
     this.tree.show(state);
     if (this.loop === undefined) this.start();
   }
@@ -250,7 +273,7 @@ export class PlotsPanel {
       drawn = now;
       if (this.pending) this.fillPending();
       setText(find('plots-note'), this.note || this.store.refusal);
-      for (const card of this.cards) card.view.draw(Plot);
+      for (const card of this.cards) card.draw(Plot, this.values);
     };
     requestAnimationFrame(frame);
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keeps the messages of followed ports as columns of numbers, and tells the monitor which ports to follow. Draws nothing.
+// Keeps the messages of followed ports as columns of numbers, and their newest pictures and long messages. Tells the monitor which ports to follow. Draws nothing.
+import {pictureIn} from './shapes/pictures.js';
 import {socketAddress} from './server.js';
 
 /** Samples kept of a port: 6 minutes at 100 Hz. */
@@ -8,6 +9,8 @@ const mostSamples = 36000;
 const mostColumns = 128;
 /** Ports that the monitor lets a page follow: the last ones, which the shown view needs, count. */
 const mostPorts = 16;
+/** Times that go back by more than this, in ms, mean that the clock was set. */
+const setBack = 50;
 /** A port that is silent for longer than this, and than several of its periods, has a gap in its curves. */
 const silentGap = 1000, silentPeriods = 5;
 
@@ -47,7 +50,8 @@ export class Track {
 
   append(sequence, time, names, values) {
     const last = this.size > 0 ? this.times[this.size - 1] : -Infinity, pause = time - last;
-    if (!(pause > 0)) return; // the clock was set back
+    if (pause < -setBack) this.forgetAll();
+    else if (!(pause > 0)) return;
     const missing = this.sequence !== 0 && sequence !== this.sequence + 1;
     const silent = pause > silentGap && pause > silentPeriods * this.period;
     if (this.size > 0 && (missing || silent)) this.push(sequence - 0.5, (last + time) / 2, [], []);
@@ -94,6 +98,12 @@ export class Track {
     this.size = mostSamples;
   }
 
+  /** What came before the clock was set back lies in the future now. */
+  forgetAll() {
+    Object.assign(this, {size: 0, sequence: 0});
+    this.kinds.clear();
+  }
+
   /** Returns the index of the first sample at or after a time. */
   indexOf(time) {
     let low = 0, high = this.size;
@@ -125,7 +135,7 @@ export function portOfKey(key) {
 
 export class SampleStore {
   constructor() {
-    Object.assign(this, {tracks: new Map(), users: new Map(), socket: null, retry: 500, skew: 0, refusal: ''});
+    Object.assign(this, {tracks: new Map(), pictures: new Map(), messages: new Map(), users: new Map(), socket: null, retry: 500, skew: 0, refusal: ''});
   }
 
   /** Sets the ports whose samples `user` needs. The store forgets those that nobody needs. */
@@ -134,7 +144,8 @@ export class SampleStore {
     if (set.size === before.size && [...set].every((key) => before.has(key))) return;
     this.users.set(user, set);
     const needed = new Set([...this.users.values()].flatMap((wanted) => [...wanted]));
-    for (const key of this.tracks.keys()) if (!needed.has(key)) this.tracks.delete(key);
+    for (const kept of [this.tracks, this.pictures, this.messages])
+      for (const key of kept.keys()) if (!needed.has(key)) kept.delete(key);
     for (const key of needed) if (!this.tracks.has(key)) this.tracks.set(key, new Track(key));
     if (this.socket?.readyState === WebSocket.OPEN) this.request();
     else if (needed.size > 0) this.connect();
@@ -148,11 +159,12 @@ export class SampleStore {
     if (this.socket && this.socket.readyState <= WebSocket.OPEN) return;
     const token = sessionStorage.getItem('tandem-token');
     this.socket = new WebSocket(socketAddress(`api/samples${token ? `?token=${encodeURIComponent(token)}` : ''}`));
+    this.socket.binaryType = 'arraybuffer';
     this.socket.onopen = () => {
       this.retry = 500;
       this.request();
     };
-    this.socket.onmessage = (message) => this.take(JSON.parse(message.data));
+    this.socket.onmessage = ({data}) => typeof data === 'string' ? this.take(JSON.parse(data)) : this.takePicture(pictureIn(data));
     this.socket.onclose = () => {
       setTimeout(() => this.tracks.size > 0 && this.connect(), this.retry);
       this.retry = Math.min(2 * this.retry, 8000);
@@ -163,11 +175,17 @@ export class SampleStore {
     this.refusal = error ?? '';
     if (error) return;
     this.skew = time - performance.now();
-    for (const {link, owner, port, names, samples} of ports) {
-      const track = this.tracks.get(`${link}/${owner}/${port}`);
+    for (const {link, owner, port, names, samples, message} of ports) {
+      const key = `${link}/${owner}/${port}`, track = this.tracks.get(key);
       if (!track) continue;
-      for (const [sequence, at, ...values] of samples) track.append(sequence, at, names, values);
+      if (message !== undefined) this.messages.set(key, message);
+      else for (const [sequence, at, ...values] of samples) track.append(sequence, at, names, values);
     }
+  }
+
+  takePicture(picture) {
+    const key = `${picture.link}/${picture.owner}/${picture.port}`;
+    if (this.tracks.has(key)) this.pictures.set(key, picture);
   }
 
   /** Returns the monitor's time in ms, which goes on between messages. */

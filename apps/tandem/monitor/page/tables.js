@@ -56,7 +56,7 @@ export const time = (times, which) => [times === null ? '–' : duration(times[w
 const mostRows = 100;
 
 /** The rows of a long table in view, and some around them. Empty bodies replace the others. */
-class RowWindow {
+export class RowWindow {
   constructor(table, changed) {
     Object.assign(this, {table, view: table.closest('.scroll'), spaces: null});
     this.view.addEventListener('scroll', () => { if (this.spaces) changed(); }, {passive: true});

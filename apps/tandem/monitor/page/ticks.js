@@ -2,7 +2,7 @@
 // The table of components: the state of each, and its ticks. A tick belongs to one component or to several that tick together.
 import {KeyedList, duration, make, number} from './dom.js';
 import {Sorter} from './sort.js';
-import {fill, time} from './tables.js';
+import {RowWindow, fill, time} from './tables.js';
 
 const find = (id) => document.getElementById(id);
 const stateSigns = {active: '✓ active', inactive: '○ not active', error: '✕ ERROR'};
@@ -48,10 +48,17 @@ export class TickTable {
       [`${item.program}, ${item.pid}`, ''], ...tickCells(item.tick)]));
   }
 
+  /** Draws the part of the table in view. */
+  draw() {
+    this.list.show(this.window.of(this.rows), (row) => row.key);
+    this.window.keepWidths();
+  }
+
   show(state) {
     this.state = state;
-    const rows = this.sorter.sort(rowsOf(state));
-    this.list.show(rows, (row) => row.key);
-    find('ticks-empty').hidden = rows.length > 0;
+    this.rows = this.sorter.sort(rowsOf(state));
+    this.window ??= new RowWindow(find('ticks'), () => this.draw());
+    this.draw();
+    find('ticks-empty').hidden = this.rows.length > 0;
   }
 }

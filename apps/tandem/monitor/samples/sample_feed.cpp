@@ -2,10 +2,11 @@
 #include "apps/tandem/monitor/samples/sample_feed.hpp"
 
 #include "apps/tandem/monitor/newest_value.hpp"
+#include "apps/tandem/monitor/samples/message_numbers.hpp"
+#include "apps/tandem/monitor/samples/picture.hpp"
 #include "apps/tandem/observe/json_message.hpp"
 #include "apps/tandem/observe/message_json.hpp"
 #include "apps/tandem/record/cdr_message.hpp"
-#include "proxy/wire/time.hpp"
 #include "shm/os/clock.hpp"
 #include "shm/os/error.hpp"
 
@@ -15,6 +16,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstring>
 #include <stdexcept>
 
 namespace tandem::monitor {
@@ -23,22 +25,37 @@ namespace {
 /// 25 times a second. A look takes a quarter of the time between two at most, so that the monitor keeps serving pages.
 constexpr std::chrono::milliseconds look_pause{40};
 constexpr RoundBounds look_bounds{std::size_t{8} << 20, 10'000'000};
-/// A time further away from that of reading is not of the same clock.
-constexpr double believable_ms = 2000;
-
-double to_ms(std::uint64_t ns) { return static_cast<double>(ns) / 1e6; }
+/// Between two messages of a port that are sent as a whole, for drawings.
+constexpr std::uint64_t whole_pause_ns = 100'000'000;
 
 /// An any brings its own type, and a list of elements without bytes may be as long as its sender says.
 bool is_plotted(const wire::Type& message) {
     return std::all_of(message.children.begin(), message.children.end(), command::takes_bytes);
 }
 
+/// Returns the start of an object about a port, without the closing brace.
+std::string port_head(const SamplePort& port, const nlohmann::ordered_json& members) {
+    nlohmann::ordered_json head{{"link", port.link}, {"owner", name_of(port.owner)}, {"port", port.name}};
+    head.update(members);
+    std::string text = head.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+    text.pop_back();
+    return text;
+}
+
 std::string chunk_head(const SamplePort& port, const std::vector<std::string>& names) {
-    const nlohmann::json head{
-        {"link", port.link}, {"owner", name_of(port.owner)}, {"port", port.name}, {"names", names}};
-    std::string text = head.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-    text.pop_back(); // the object continues with its samples
-    return text + R"(,"samples":[)";
+    return port_head(port, {{"names", names}}) + R"(,"samples":[)";
+}
+
+/// Returns the bytes of the header (uint32, little endian), the header as JSON, and the pixels.
+std::string picture_frame(const SamplePort& port, const Picture& picture) {
+    const std::string head =
+        port_head(port, {{"width", picture.width}, {"height", picture.height}, {"format", picture.format}}) +
+        "}";
+    const auto size = static_cast<std::uint32_t>(head.size());
+    std::string frame(sizeof size, '\0');
+    std::memcpy(frame.data(), &size, sizeof size);
+    frame += head;
+    return frame.append(reinterpret_cast<const char*>(picture.pixels.data()), picture.pixels.size());
 }
 
 /// Returns `[number, time, value ...]`; null stands for a value that is not finite.
@@ -49,29 +66,6 @@ std::string row(std::uint64_t sequence, double time_ms, const std::vector<double
 }
 
 } // namespace
-
-SampleClock::SampleClock() : monotonic_offset_ms_(to_ms(command::wall_clock_ns()) - to_ms(shm::now_ns())) {}
-
-/// The sender's clock may be that of this machine, its monotonic clock, or another one that runs as fast; the first
-/// message tells how far that one is off. Without a useful stamp, the time of reading counts.
-double SampleClock::time_of(std::uint64_t stamp) {
-    const double wall_ms = to_ms(command::wall_clock_ns());
-    const double sent_ms = 1e3 * wire::stamp_seconds(stamp) + wire::stamp_nanoseconds(stamp) / 1e6;
-    const auto is_near = [&](double offset_ms) {
-        return std::abs(sent_ms + offset_ms - wall_ms) < believable_ms;
-    };
-    double time = wall_ms;
-    if (sent_ms > last_sent_ms_) {
-        for (const double offset_ms : {0.0, monotonic_offset_ms_, offset_ms_})
-            if (is_near(offset_ms)) {
-                time = sent_ms + offset_ms;
-                break;
-            }
-        if (time == wall_ms) offset_ms_ = wall_ms - sent_ms;
-    }
-    last_sent_ms_ = sent_ms;
-    return last_ = std::max(time, last_ + 0.001);
-}
 
 void SampleFeed::add(SampleClient& client) {
     clients_.insert(&client);
@@ -110,20 +104,30 @@ void SampleFeed::look() {
     read_ports();
     const auto clients = clients_; // a copy, because a client may leave meanwhile
     const std::uint64_t now_ms = command::wall_clock_ns() / 1'000'000;
-    for (SampleClient* client : clients) {
-        if (clients_.count(client) == 0) continue;
-        std::string json;
-        for (const SamplePort& port : client->ports())
-            if (const auto found = followed_.find(port);
-                found != followed_.end() && !found->second.chunks.empty())
-                json += (json.empty() ? "" : ",") + found->second.chunks + "]}";
-        if (!json.empty()) client->samples(now_ms, json);
+    for (SampleClient* client : clients)
+        if (clients_.count(client) != 0) send_to(*client, now_ms);
+    for (auto& [port, followed] : followed_) {
+        followed.chunks.clear();
+        followed.message = nullptr;
+        followed.frame = nullptr;
     }
-    for (auto& [port, followed] : followed_) followed.chunks.clear();
     timer_.expires_after(look_pause);
     timer_.async_wait([this](const boost::system::error_code& aborted) {
         if (!aborted) look();
     });
+}
+
+void SampleFeed::send_to(SampleClient& client, std::uint64_t now_ms) {
+    std::string json;
+    for (const SamplePort& port : client.ports()) {
+        const auto found = followed_.find(port);
+        if (found == followed_.end()) continue;
+        const Followed& followed = found->second;
+        if (!followed.chunks.empty()) json += (json.empty() ? "" : ",") + followed.chunks + "]}";
+        if (!followed.message.is_null()) json += "," + port_head(port, {{"message", followed.message}}) + "}";
+        if (followed.frame != nullptr) client.picture(followed.frame);
+    }
+    if (!json.empty()) client.samples(now_ms, json);
 }
 
 void SampleFeed::poll(const SamplePort& port, Followed& followed, Round& round) {
@@ -141,16 +145,35 @@ void SampleFeed::poll(const SamplePort& port, Followed& followed, Round& round) 
 
 void SampleFeed::add_sample(const SamplePort& port, Followed& followed, const command::FollowedPort& of,
                             const shm::FollowedRecord& record) {
+    const bool whole = shm::now_ns() - followed.whole_ns >= whole_pause_ns;
+    if (is_picture(of.message)) {
+        if (whole && record.bytes.size() <= max_picture) add_picture(port, followed, of, record);
+        return;
+    }
     if (record.bytes.size() > NewestValue::max_message || !is_plotted(of.message)) return;
     try {
-        const auto [names, values] = numbers_of(command::message_to_json(of, record.bytes, record.stamp));
+        auto message = command::message_to_json(of, record.bytes, record.stamp);
+        const auto [names, values] = numbers_of(message);
         const bool begins = followed.chunks.empty() || names != followed.names;
         if (begins) followed.chunks += (followed.chunks.empty() ? "" : "]},") + chunk_head(port, names);
         followed.names = names;
         followed.chunks +=
             (begins ? "" : ",") + row(record.sequence, followed.clock.time_of(record.stamp), values);
+        if (!whole || names.size() < MessageNumbers::max_numbers) return;
+        followed.message = std::move(message);
+        followed.whole_ns = shm::now_ns();
     } catch (const std::runtime_error&) { // untrusted bytes of another process: the state says so
     }
+}
+
+void SampleFeed::add_picture(const SamplePort& port, Followed& followed, const command::FollowedPort& of,
+                             const shm::FollowedRecord& record) {
+    std::vector<std::byte> message;
+    command::append_message(of, record.bytes, record.stamp, message);
+    const auto picture = picture_in(of.message, message);
+    if (!picture) return; // the state says so
+    followed.frame = std::make_shared<const std::string>(picture_frame(port, *picture));
+    followed.whole_ns = shm::now_ns();
 }
 
 } // namespace tandem::monitor

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "apps/tandem/monitor/round.hpp"
-#include "apps/tandem/monitor/samples/message_numbers.hpp"
+#include "apps/tandem/monitor/samples/sample_clock.hpp"
 #include "apps/tandem/monitor/state.hpp"
 #include "apps/tandem/observe/link_follower.hpp"
 
@@ -13,9 +13,10 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace tandem::monitor {
@@ -28,24 +29,13 @@ struct SamplePort {
     auto operator<=>(const SamplePort&) const = default;
 };
 
-/// Finds the times of a port's messages on the clock of this machine. [one thread]
-class SampleClock {
-  public:
-    SampleClock();
-    /// Returns the time of a message in ms since the epoch, later than that of the message before. `stamp`: see
-    /// wire::pack_time().
-    double time_of(std::uint64_t stamp);
-
-  private:
-    double monotonic_offset_ms_; ///< from CLOCK_MONOTONIC to CLOCK_REALTIME
-    double offset_ms_ = 0, last_sent_ms_ = 0, last_ = 0;
-};
-
 /// Receives the samples of the ports that it follows. [one thread]
 class SampleClient {
   public:
     /// `json`: chunks of the followed ports with samples since the last call, joined by commas.
     virtual void samples(std::uint64_t time_ms, const std::string& json) = 0;
+    /// `frame`: the newest picture of a followed port, as docs/monitoring.md describes it.
+    virtual void picture(const std::shared_ptr<const std::string>& frame) = 0;
     virtual const std::set<SamplePort>& ports() const = 0;
 
   protected:
@@ -56,7 +46,8 @@ class SampleClient {
 /// is read by the next look, or is lost, which the clients recognize by the numbers of the samples. [one thread]
 class SampleFeed {
   public:
-    static constexpr std::size_t max_ports = 64; ///< of all clients; further ports are not followed
+    static constexpr std::size_t max_ports = 64;         ///< of all clients; further ports are not followed
+    static constexpr std::size_t max_picture = 16 << 20; ///< bytes of a message that is a picture
 
     /// `state`: returns the newest State, which contains the links. `stop`: ends a look early; null: nothing does.
     SampleFeed(boost::asio::io_context& context, std::function<const State&()> state,
@@ -67,13 +58,16 @@ class SampleFeed {
     void remove(SampleClient& client) { clients_.erase(&client); }
 
   private:
-    /// A followed port. `chunks`: what the current look has read, as JSON.
+    /// A followed port. `chunks`, `message`, `frame`: what the current look has read.
     struct Followed {
         explicit Followed(const SamplePort& port) : follower(port.link, {port.name}) {}
         command::LinkFollower follower;
         std::vector<std::string> names; ///< of the numbers in the last chunk
         SampleClock clock;
         std::string chunks;
+        nlohmann::ordered_json message; ///< the newest one that has more numbers than a sample; else null
+        std::shared_ptr<const std::string> frame; ///< null: no new picture
+        std::uint64_t whole_ns = 0; ///< time of the last message or picture that was sent as a whole
     };
 
     void look();
@@ -82,6 +76,9 @@ class SampleFeed {
     void poll(const SamplePort& port, Followed& followed, Round& round);
     void add_sample(const SamplePort& port, Followed& followed, const command::FollowedPort& of,
                     const shm::FollowedRecord& record);
+    void add_picture(const SamplePort& port, Followed& followed, const command::FollowedPort& of,
+                     const shm::FollowedRecord& record);
+    void send_to(SampleClient& client, std::uint64_t now_ms);
 
     boost::asio::steady_timer timer_;
     const std::atomic<bool>* stop_;

@@ -70,4 +70,8 @@ void SampleSession::samples(std::uint64_t time_ms, const std::string& json) {
     send(std::make_shared<const std::string>(fmt::format(R"({{"time_ms":{},"ports":[{}]}})", time_ms, json)));
 }
 
+void SampleSession::picture(const std::shared_ptr<const std::string>& frame) {
+    if (queued_bytes() <= max_queued) send(frame, true);
+}
+
 } // namespace tandem::monitor

@@ -20,6 +20,7 @@ class SampleSession final : public WebSocketSession, private SampleClient {
 
   private:
     void samples(std::uint64_t time_ms, const std::string& json) override;
+    void picture(const std::shared_ptr<const std::string>& frame) override;
     const std::set<SamplePort>& ports() const override { return ports_; }
 
     void on_open(const Request& request) override;

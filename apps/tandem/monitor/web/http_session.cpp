@@ -2,6 +2,7 @@
 #include "apps/tandem/monitor/web/http_session.hpp"
 
 #include "apps/tandem/monitor/control/control.hpp"
+#include "apps/tandem/monitor/control/recordings.hpp"
 #include "apps/tandem/monitor/foxglove/foxglove_session.hpp"
 #include "apps/tandem/monitor/samples/sample_session.hpp"
 #include "apps/tandem/monitor/web/page_session.hpp"
@@ -12,8 +13,11 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <filesystem>
+#include <memory>
 #include <sstream>
 #include <string>
+#include <string_view>
 
 namespace tandem::monitor {
 namespace {
@@ -31,18 +35,23 @@ class ControlSession final : public WebSocketSession {
   private:
     void on_open(const Request&) override {}
     void on_message(const std::string& text, bool) override {
+        if (refused_) return;
         if (!trusted_) {
             const auto hello = nlohmann::json::parse(text, nullptr, false);
             trusted_ = hello.is_object() && hello.contains("token") && hello["token"].is_string() &&
                        service_.control->is_token(hello["token"].get<std::string>());
-            if (!trusted_) return close();
-            return reply(R"({"op":"token","ok":true})");
+            refused_ = !trusted_;
+            return reply(trusted_ ? R"({"op":"token","ok":true})" : R"({"op":"token","ok":false})");
         }
         // The session can end before a reply.
         service_.control->handle(text, [weak = weak_from_this(), this](const nlohmann::json& result) {
             if (const auto self = weak.lock())
                 reply(result.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
         });
+    }
+
+    void on_sent() override {
+        if (refused_) close();
     }
 
     void reply(std::string text) {
@@ -52,6 +61,7 @@ class ControlSession final : public WebSocketSession {
 
     Service& service_;
     bool trusted_ = false; ///< the client has sent the token
+    bool refused_ = false; ///< it has sent another one
 };
 
 namespace beast = boost::beast;
@@ -66,11 +76,29 @@ constexpr std::chrono::seconds write_bound{20};
 constexpr std::chrono::seconds drain_bound{2};
 constexpr std::size_t max_drained = 256 << 10;
 
+constexpr std::string_view recordings_path = "/api/recordings/";
+
 constexpr const char* read_only = "the monitor is read-only; start it with tandem monitor --control";
 
 boost::asio::ip::address local_address(const boost::asio::ip::tcp::socket& socket) {
     beast::error_code ignored; // the client may be gone
     return socket.local_endpoint(ignored).address();
+}
+
+/// A file on its way to a client, which has `write_bound` for each part.
+struct Download {
+    http::response<http::file_body> response{status::ok, 11};
+    http::response_serializer<http::file_body> serializer{response};
+};
+
+template <class Done>
+void send_part(beast::tcp_stream& stream, const std::shared_ptr<Download>& download, Done done) {
+    stream.expires_after(write_bound);
+    http::async_write_some(stream, download->serializer,
+                           [&stream, download, done](beast::error_code failure, std::size_t) {
+                               if (failure || download->serializer.is_done()) return done(failure);
+                               send_part(stream, download, done);
+                           });
 }
 
 bool has_body(const Request& request) {
@@ -152,9 +180,38 @@ void HttpSession::answer(const Request& request) {
     if (beast::websocket::is_upgrade(request)) return upgrade(request);
     if (path_of(request) == "/api/control" && service_.control == nullptr)
         return refuse(status::forbidden, read_only);
+    if (path_of(request).rfind(recordings_path, 0) == 0) return send_recording(request);
     Response response = respond(request, service_);
     response.keep_alive(request.keep_alive() && !has_body(request));
     write(std::move(response));
+}
+
+/// Recordings contain all messages, so they are for clients with the token.
+void HttpSession::send_recording(const Request& request) {
+    if (service_.control == nullptr) return refuse(status::forbidden, read_only);
+    if (request.method() != http::verb::get) return write(respond(request, service_));
+    if (!service_.control->is_token(token_of(request)))
+        return refuse(status::forbidden,
+                      "expected the token printed by tandem monitor --control, as ?token=...");
+    const std::string name = path_of(request).substr(recordings_path.size());
+    const auto path = find_recording(std::filesystem::current_path(), name);
+    const auto download = std::make_shared<Download>();
+    beast::error_code failure;
+    if (path) download->response.body().open(path->c_str(), beast::file_mode::scan, failure);
+    if (!path || failure)
+        return refuse(status::not_found,
+                      "no such recording in the folder in which tandem monitor was started");
+    auto& response = download->response;
+    response.set(http::field::content_type, "application/octet-stream");
+    response.set(http::field::content_disposition, "attachment; filename=\"" + name + "\"");
+    response.set(http::field::cache_control, "no-store");
+    response.keep_alive(false);
+    response_.keep_alive(false); // on_write() closes the connection
+    response.prepare_payload();
+    reading_ = false;
+    service_.requests.renew(*this);
+    send_part(stream_, download,
+              [self = shared_from_this()](beast::error_code failed) { self->on_write(failed); });
 }
 
 void HttpSession::upgrade(const Request& request) {

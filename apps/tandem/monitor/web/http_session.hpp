@@ -38,6 +38,7 @@ class HttpSession final : public std::enable_shared_from_this<HttpSession>, priv
     void become(bool has_token);
     void refuse(boost::beast::http::status code, const std::string& line);
     void log_refusal(const std::string& line);
+    void send_recording(const Request& request);
     void write(Response response);
     void on_write(boost::beast::error_code failure);
     void drain();

@@ -28,12 +28,10 @@ std::map<std::string, PageFile, std::less<>> read_page_files() {
     };
     read(folder / "index.html", "/");
     // lib has the libraries from npm, if npm was available during the build. Otherwise the page reports it.
-    for (const std::string part : {"", "lib/"}) {
-        std::error_code missing;
-        for (const auto& entry : fs::directory_iterator(folder / part, missing))
-            if (types.count(entry.path().extension()) != 0)
-                read(entry.path(), "/" + part + entry.path().filename().string());
-    }
+    std::error_code missing;
+    for (const auto& entry : fs::recursive_directory_iterator(folder, missing))
+        if (types.count(entry.path().extension()) != 0)
+            read(entry.path(), "/" + entry.path().lexically_relative(folder).string());
     return files;
 }
 

@@ -13,7 +13,20 @@ namespace {
 struct PortEntry {
     std::string name, kind, type;
     std::vector<std::string> connected_with;
+    nlohmann::json properties;  ///< dataport.*: what the port supports
+    nlohmann::json connections; ///< ids, names, the other ports and properties of the connections
 };
+
+/// Returns the properties of data ports and their connections that are texts.
+nlohmann::json dataport_properties(const SDOPackage::NVList& list) {
+    nlohmann::json properties = nlohmann::json::object();
+    for (CORBA::ULong i = 0; i < list.length(); ++i) {
+        const std::string name(list[i].name);
+        const char* value = nullptr; // belongs to the property
+        if (name.compare(0, 9, "dataport.") == 0 && (list[i].value >>= value)) properties[name] = value;
+    }
+    return properties;
+}
 
 // Returns the name of a connection's other port, whose process may be gone.
 std::string peer_name(RTC::PortService_ptr port) {
@@ -34,7 +47,9 @@ std::vector<PortEntry> ports_of(RTC::RTObject_ptr component) {
         PortEntry line{static_cast<const char*>(profile->name),
                        NVUtil::toString(profile->properties, "port.port_type"),
                        NVUtil::toString(profile->properties, "dataport.data_type"),
-                       {}};
+                       {},
+                       dataport_properties(profile->properties),
+                       nlohmann::json::array()};
         for (CORBA::ULong k = 0; k < profile->interfaces.length(); ++k) {
             const auto& one = profile->interfaces[k];
             // A service port has interfaces instead of a data type.
@@ -44,9 +59,14 @@ std::vector<PortEntry> ports_of(RTC::RTObject_ptr component) {
         }
         for (CORBA::ULong c = 0; c < profile->connector_profiles.length(); ++c) {
             const auto& connection = profile->connector_profiles[c];
+            nlohmann::json others = nlohmann::json::array();
             for (CORBA::ULong p = 0; p < connection.ports.length(); ++p)
                 if (!connection.ports[p]->_is_equivalent(ports[i]))
-                    line.connected_with.push_back(peer_name(connection.ports[p]));
+                    others.push_back(line.connected_with.emplace_back(peer_name(connection.ports[p])));
+            line.connections.push_back({{"id", connection.connector_id.in()},
+                                        {"name", connection.name.in()},
+                                        {"with", others},
+                                        {"properties", dataport_properties(connection.properties)}});
         }
         lines.push_back(line);
     }
@@ -75,7 +95,9 @@ int rtm_tree(const RtmClientOptions& options) {
                         ports.push_back({{"name", port.name},
                                          {"kind", port.kind},
                                          {"type", port.type},
-                                         {"connected_with", port.connected_with}});
+                                         {"connected_with", port.connected_with},
+                                         {"properties", port.properties},
+                                         {"connections", port.connections}});
                         text += fmt::format("    {} {} {}\n", port.name, port.kind, port.type);
                         for (const auto& other : port.connected_with) text += "      <-> " + other + "\n";
                     }

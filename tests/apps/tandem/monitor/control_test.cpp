@@ -2,7 +2,9 @@
 // Who may control, and what a request may be. browser/drive_test.mjs drives.
 #include "http_client.hpp"
 
+#include <algorithm>
 #include <csignal>
+#include <fcntl.h>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -71,6 +73,7 @@ TEST_CASE("a client with a wrong token is disconnected, and its requests are not
         INFO(hello);
         Live client(monitor, 0, "/api/control");
         client.send(hello);
+        CHECK(client.next() == nlohmann::json{{"op", "token"}, {"ok", false}});
         CHECK_THROWS(client.next());
     }
     CHECK(state(monitor)["control"]["recording"] == "");
@@ -100,6 +103,10 @@ TEST_CASE(
         {{"op", "rtm"}, {"command", "conf"}, {"arguments", {"A0", "x=\n"}}},
         {{"op", "rtm"}, {"command", "activate"}, {"arguments", "A0"}},
         {{"op", "record"}, {"on", true}, {"links", {"-o"}}},
+        {{"op", "opros"}, {"command", "new"}, {"arguments", {"A"}}},
+        {{"op", "rtm"}, {"command", "connect"}, {"arguments", {"a.b", "c.d"}}, {"properties", {"--help"}}},
+        {{"op", "rtm"}, {"command", "conf"}, {"arguments", {"A0"}}, {"set", "-x"}},
+        {{"op", "rtm"}, {"command", "disconnect"}, {"arguments", {"a.b"}}, {"connection", 5}},
         {{"op", "drive"}, {"link", pair.link.name}, {"x", 0}, {"y", 900}},
         {{"op", "drive"}, {"link", "?"}, {"x", "left"}, {"y", 900}},
         nlohmann::json::array(),
@@ -172,4 +179,60 @@ TEST_CASE("a recording that the page has started and that is killed is in the ve
     CHECK_THAT(state(monitor)["verdict"]["reason"].get<std::string>(),
                Catch::Contains("tandem record has failed"));
     std::filesystem::remove(reply["text"].get<std::string>());
+}
+
+TEST_CASE("recordings are listed and downloaded with the token, and nothing else of their folder") {
+    const Pair pair;
+    RunningMonitor monitor(pair.link.name, "--control");
+    const auto folder = std::filesystem::read_symlink("/proc/" + std::to_string(monitor.pid()) + "/cwd");
+    const std::string name = "tandem-20200102-030405.mcap";
+    std::ofstream(folder / name) << std::string(300'000, 'm');
+    const auto listed = Controller(monitor).ask({{"op", "recordings"}})["recordings"];
+    CHECK(std::count_if(listed.begin(), listed.end(), [&](const auto& each) {
+              return each["file"] == name && each["bytes"] == 300'000;
+          }) == 1);
+    const std::string query = "?token=" + monitor.token;
+    const auto whole = get(monitor, "/api/recordings/" + name + query);
+    CHECK(whole.status == 200);
+    CHECK(whole.body == std::string(300'000, 'm'));
+    CHECK(get(monitor, "/api/recordings/" + name).status == 403);
+    CHECK(get(monitor, "/api/recordings/" + name + "?token=0").status == 403);
+    for (const char* other :
+         {"", "../", "tandem-20200102-030406.mcap", "..%2f", "tandem-2020010a-030405.mcap"})
+        CHECK(get(monitor, std::string("/api/recordings/") + other + query).status == 404);
+    std::filesystem::remove(folder / name);
+    std::filesystem::create_symlink("/etc/passwd", folder / name);
+    CHECK(get(monitor, "/api/recordings/" + name + query).status == 404);
+    std::filesystem::remove(folder / name);
+}
+
+TEST_CASE("new lines of the hosts' logs are sent once, if the logs are files of this user") {
+    const Pair pair; // both of its sides are this process
+    const auto log = std::filesystem::temp_directory_path() / ("tandem-log-" + std::to_string(getpid()));
+    const int errors = dup(STDERR_FILENO),
+              file = open(log.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_APPEND, 0600);
+    REQUIRE(file >= 0);
+    const auto write_line = [&](const std::string& text) {
+        REQUIRE(write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size()));
+    };
+    write_line("first\n[2026-01-02 03:04:05.678] [error] Arm: it is stuck\nhalf a li");
+    RunningMonitor monitor(pair.link.name, "--control");
+    Controller client(monitor);
+    dup2(file, STDERR_FILENO);
+    const auto ask = [&](const nlohmann::json& from) {
+        return client.ask({{"op", "log"}, {"from", from}})["log"];
+    };
+    const auto first = ask(nlohmann::json::object());
+    write_line("ne\n");
+    REQUIRE(first.size() == 1);
+    const std::string id = first[0]["id"];
+    const auto second = ask({{id, first[0]["next"]}}), third = ask({{id, second[0]["next"]}});
+    dup2(errors, STDERR_FILENO);
+    CHECK(first[0]["text"] == "first\n[2026-01-02 03:04:05.678] [error] Arm: it is stuck\n");
+    CHECK_THAT(first[0]["hosts"][0].get<std::string>(), Catch::Contains(std::to_string(getpid())));
+    CHECK(second[0]["text"] == "half a line\n");
+    CHECK(third[0]["text"] == "");
+    close(file);
+    close(errors);
+    std::filesystem::remove(log);
 }

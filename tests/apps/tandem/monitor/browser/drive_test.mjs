@@ -56,6 +56,8 @@ test("the address that is printed has the token, and it leaves the address bar",
   assert.doesNotMatch(await (await fetch(`${address}/api/state`)).text(), new RegExp(monitor.url.split("=")[1]));
 });
 
+test("wheelchair says where to drive", () => chair.child.line(/drive with a gamepad, or run tandem monitor --control and open the view Wheelchair/));
+
 test("the stick on the page drives the chair, and a released one stops it", async () => {
   await page.waitForSelector("#chair-stick.drives");
   await hold(page, 0, 0.6);
@@ -105,6 +107,7 @@ test("a page without the token sees everything and drives nothing", async () => 
 
 test("a command without what it needs says so, and sends nothing", async () => {
   await page.locator("#control-anchor").click();
+  await page.locator("summary", { hasText: "Other commands" }).click();
   await page.locator("#control-arguments").fill(" ");
   for (const command of ["activate", "connect", "conf"]) {
     await page.locator(`#control-form button[value="${command}"]`).click();

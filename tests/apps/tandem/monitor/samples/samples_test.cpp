@@ -3,8 +3,10 @@
 #include "tests/apps/tandem/monitor/http_client.hpp"
 
 #include "apps/tandem/monitor/samples/message_numbers.hpp"
+#include "apps/tandem/monitor/samples/picture.hpp"
 #include "apps/tandem/monitor/samples/sample_feed.hpp"
 #include "apps/tandem/record/cdr_message.hpp"
+#include "proxy/wire/cdr.hpp"
 #include "proxy/wire/time.hpp"
 #include "shm/ring/ring_reader.hpp"
 #include "shm/ring/ring_writer.hpp"
@@ -87,6 +89,50 @@ TEST_CASE("the times of messages are the sender's, whatever its clock shows") {
     const double first = clock.time_of(0);
     CHECK(std::abs(first - wall_ms) < 4000);
     CHECK(clock.time_of(0) > first);
+}
+
+TEST_CASE("the times of messages go on when the clock of the machine is set") {
+    using tandem::monitor::ClockTimes;
+    using tandem::wire::pack_time;
+    for (const double set_ms : {-3'600'000.0, -1000.0, 3'600'000.0}) {
+        INFO(set_ms);
+        tandem::monitor::SampleClock clock(ClockTimes{5e6, 1000});
+        double wall_ms = 5e6, monotonic_ms = 1000;
+        const auto sent_now = [&] {
+            wall_ms += 10;
+            monotonic_ms += 10;
+            const auto sec = static_cast<std::uint32_t>(wall_ms / 1000);
+            const auto nsec = static_cast<std::uint32_t>((wall_ms - 1000.0 * sec) * 1e6);
+            return clock.time_of(pack_time(sec, nsec), ClockTimes{wall_ms, monotonic_ms});
+        };
+        CHECK(sent_now() == Approx(5e6 + 10));
+        wall_ms += set_ms;
+        for (int i = 2; i < 50; ++i) CHECK(sent_now() == Approx(5e6 + set_ms + 10 * i).margin(0.01));
+    }
+}
+
+TEST_CASE("pictures are recognized by their members, and read from their bytes") {
+    using tandem::wire::parse_signature;
+    const auto raw = parse_signature("{raw}s{width}i{height}i{pixelByte}i{size}t{data}ay");
+    CHECK(tandem::monitor::is_picture(raw));
+    CHECK(tandem::monitor::is_picture(
+        parse_signature("{data}({image}({width}u{height}u{format}e{raw_data}ay)){error_code}u")));
+    CHECK_FALSE(tandem::monitor::is_picture(parse_signature("{width}i{height}i{rows}aay")));
+    CHECK_FALSE(tandem::monitor::is_picture(parse_signature("{data}ay")));
+    std::vector<std::byte> bytes;
+    tandem::wire::CdrWriter out(bytes);
+    out.put_string("raw");
+    for (const std::int32_t number : {2, 1, 3}) out.put(number);
+    out.put(std::uint64_t{6});
+    out.put(std::uint32_t{6});
+    for (const std::uint8_t byte : {1, 2, 3, 4, 5, 6}) out.put(byte);
+    const auto picture = tandem::monitor::picture_in(raw, bytes);
+    REQUIRE(picture);
+    CHECK(picture->width == 2);
+    CHECK(picture->height == 1);
+    CHECK(picture->pixels.size() == 6);
+    bytes.pop_back();
+    CHECK_FALSE(tandem::monitor::picture_in(raw, bytes));
 }
 
 TEST_CASE("a plot gets every message, with its number and a time that increases") {

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// Shows pictures of ports. docs/monitoring.md describes the frames and the formats.
+import {make, setAttributes, setText} from '../dom.js';
+
+/** Returns the header of a frame of /api/samples, with its `pixels`. */
+export function pictureIn(buffer) {
+  const size = new DataView(buffer).getUint32(0, true);
+  const head = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, size)));
+  return {...head, pixels: new Uint8Array(buffer, 4 + size)};
+}
+
+const begins = (pixels, bytes) => bytes.every((byte, i) => pixels[i] === byte);
+
+/** Returns the MIME type of a compressed picture, or null. */
+export function compressionOf(pixels) {
+  if (begins(pixels, [0xff, 0xd8, 0xff])) return 'image/jpeg';
+  return begins(pixels, [0x89, 0x50, 0x4e, 0x47]) ? 'image/png' : null;
+}
+
+/** The places of red, green and blue within a pixel of so many bytes; the second byte of 16 bits is the more significant one. */
+function colourPlaces(bytes, format) {
+  if (bytes === 1) return [0, 0, 0];
+  if (bytes === 2) return [1, 1, 1];
+  if (bytes !== 3 && bytes !== 4) return null;
+  return /rgb|^format 2$/i.test(format) ? [0, 1, 2] : [2, 1, 0];
+}
+
+/** Returns the colours as RGBA, or null if the bytes do not fit the sizes. */
+export function coloursOf({width, height, format, pixels}) {
+  const count = width * height, bytes = count > 0 ? Math.floor(pixels.length / count) : 0, places = colourPlaces(bytes, format);
+  if (places === null || width < 0) return null;
+  const [red, green, blue] = places, colours = new Uint8ClampedArray(4 * count);
+  for (let to = 0, from = 0; to < colours.length; to += 4, from += bytes) {
+    colours[to] = pixels[from + red];
+    colours[to + 1] = pixels[from + green];
+    colours[to + 2] = pixels[from + blue];
+    colours[to + 3] = 255;
+  }
+  return colours;
+}
+
+export class PictureView {
+  constructor() {
+    this.element = make('figure', 'picture');
+    this.canvas = make('canvas');
+    this.caption = make('figcaption');
+    this.element.append(this.canvas, this.caption);
+  }
+
+  /** `picture`: of pictureIn(). Draws each picture once. */
+  async show(picture) {
+    if (picture === this.shown) return;
+    this.shown = picture;
+    const {port, pixels, format} = picture, type = compressionOf(pixels);
+    const image = type ? await createImageBitmap(new Blob([pixels], {type})).catch(() => null) : this.imageOf(picture);
+    if (picture !== this.shown) return; // a newer one has come meanwhile
+    const {width, height} = image ?? picture;
+    this.canvas.hidden = image === null;
+    if (image === null)
+      return setText(this.caption, `✕ ${width} × ${height} pixels with ${pixels.length} bytes${format ? `, format ${format}` : ''}: cannot be shown`);
+    if (this.canvas.width !== width || this.canvas.height !== height) Object.assign(this.canvas, {width, height});
+    const context = this.canvas.getContext('2d');
+    if (type) context.drawImage(image, 0, 0);
+    else context.putImageData(image, 0, 0);
+    setAttributes(this.canvas, {role: 'img', 'aria-label': `Picture of ${port}`});
+    setText(this.caption, `${width} × ${height} pixels${format ? `, ${format}` : ''}`);
+  }
+
+  imageOf(picture) {
+    const colours = coloursOf(picture);
+    return colours && new ImageData(colours, picture.width, picture.height);
+  }
+}

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+// Changes the system: activates components, connects ports, sets parameters, and undoes the last changes.
+import {KeyedList, make, setAttributes, setClass, setText} from '../dom.js';
+import {ParametersView} from './parameters_view.js';
+import {actionsFor, commonProperties, componentsIn, connectionsIn, jsonIn, portLabel, propertiesAgain, whyNot} from './system.js';
+
+const find = (id) => document.getElementById(id);
+const mostRows = 200, mostUndone = 50;
+const stateSigns = {ACTIVE: '✓ ', ERROR: '✕ ', UNREACHABLE: '✕ '};
+
+const button = (text, act) => {
+  const element = make('button', 'raised', text);
+  element.type = 'button';
+  element.addEventListener('click', act);
+  return element;
+};
+
+export class SystemView {
+  /** `connection`: of control.js. */
+  constructor(connection) {
+    Object.assign(this, {connection, components: [], done: [], seen: '', reading: false});
+    this.rows = new KeyedList(find('system-components').tBodies[0], (component) => this.createRow(component), (row, component) => this.updateRow(row, component));
+    this.connected = new KeyedList(find('system-connections'), (each) => this.createConnection(each), () => {});
+    this.parameters = new ParametersView(find('parameters'), (request, text, undo) => this.act(request, text, undo), (request) => connection.ask(request));
+    for (const id of ['connect-from', 'connect-to']) find(id).addEventListener('change', () => this.showFit());
+    find('connect-form').addEventListener('submit', (event) => {
+      event.preventDefault();
+      this.connect();
+    });
+    find('system-filter').addEventListener('input', () => this.draw());
+    find('system-refresh').addEventListener('click', () => this.read());
+    find('system-undo').addEventListener('click', () => this.undo());
+  }
+
+  /** Called with each state while the view is shown. Reads the system again when the hosts have other components or states. */
+  show(state) {
+    const seen = state.components.map(({pid, name, state: of}) => `${pid} ${name} ${of}`).join('\n');
+    if (!this.connection.open || seen === this.seen) return;
+    this.seen = seen;
+    this.read();
+  }
+
+  /** Asks for the system, once more if this is called meanwhile. */
+  async read() {
+    this.wanted = true;
+    if (this.reading) return;
+    this.reading = true;
+    while (this.wanted) {
+      this.wanted = false;
+      const [tree, opros] = await Promise.all([this.connection.ask({op: 'rtm', command: 'tree', json: true}),
+        this.connection.ask({op: 'opros', command: 'list', json: true})]);
+      this.components = componentsIn(jsonIn(tree.text), jsonIn(opros.text));
+      setText(find('system-note'), this.components.length > 0 ? '' : `No component answers. ${tree.ok ? '' : tree.text.trim()}`);
+      this.draw();
+    }
+    this.reading = false;
+  }
+
+  draw() {
+    const wanted = find('system-filter').value.toLowerCase();
+    const listed = this.components.filter(({name, model}) => `${name} ${model}`.toLowerCase().includes(wanted));
+    this.rows.show(listed.slice(0, mostRows), ({model, id}) => `${model} ${id}`);
+    setText(find('system-count'), listed.length > mostRows ? `${listed.length - mostRows} more: filter them` : '');
+    const connections = connectionsIn(this.components);
+    this.connected.show(connections, ({id}) => id);
+    find('system-connections-empty').hidden = connections.length > 0;
+    this.fillPorts();
+  }
+
+  createRow() {
+    const row = make('tr'), head = make('th');
+    head.scope = 'row';
+    row.append(head, make('td'), make('td'), make('td', 'actions'));
+    ['model', 'state', ''].forEach((label, i) => { row.children[i + 1].dataset.label = label; });
+    return row;
+  }
+
+  updateRow(row, component) {
+    const {name, model, state} = component, [head, of, now, actions] = row.children;
+    setText(head, name);
+    setText(of, model);
+    setText(now, `${stateSigns[state] ?? ''}${state}`);
+    setClass(now, state === 'ERROR' || state === 'UNREACHABLE' ? 'bad' : '');
+    if (row.state === state) return;
+    row.state = state;
+    actions.replaceChildren(...actionsFor(component).map(([command, text, undo]) => {
+      const act = button(text, () => this.act(this.request(component, command), `${text} ${name}`,
+        undo && {text: `${undo} ${name}`, request: this.request(component, undo)}));
+      act.ariaLabel = `${text} ${name}`;
+      return act;
+    }), Object.assign(button('Parameters', () => this.parameters.open(component)), {ariaLabel: `Parameters of ${name}`}));
+  }
+
+  request({model, id}, command, more = {}) { return {op: model === 'RTM' ? 'rtm' : 'opros', command, arguments: [id], ...more}; }
+
+  /** Fills the lists of ports. Ports that fit the first one come first. */
+  fillPorts() {
+    const ports = this.components.flatMap((component) => component.ports), [from, to] = [find('connect-from'), find('connect-to')];
+    const fill = (select, groups) => {
+      const key = JSON.stringify(groups.map(([label, list]) => [label, list.map(portLabel)])), chosen = select.value;
+      if (select.key === key) return;
+      select.key = key;
+      select.replaceChildren(...groups.filter(([, list]) => list.length > 0).map(([label, list]) => {
+        const group = make('optgroup');
+        group.label = label;
+        group.append(...list.map((port) => new Option(portLabel(port), port.name)));
+        return group;
+      }));
+      if (ports.some(({name}) => name === chosen)) select.value = chosen;
+    };
+    fill(from, [['send, or serve', ports.filter(({kind}) => kind !== 'DataInPort')], ['receive', ports.filter(({kind}) => kind === 'DataInPort')]]);
+    const first = ports.find(({name}) => name === from.value), fits = (port) => first && whyNot(first, port) === '';
+    fill(to, [['fits', ports.filter(fits)], ['does not fit', ports.filter((port) => !fits(port))]]);
+    this.ports = ports;
+    this.showFit(false);
+  }
+
+  chosen() { return ['connect-from', 'connect-to'].map((id) => this.ports?.find(({name}) => name === find(id).value)); }
+
+  showFit(fill = true) {
+    if (fill) return this.fillPorts();
+    const [a, b] = this.chosen(), why = a && b ? whyNot(a, b) : 'there are no two ports';
+    setText(find('connect-fit'), why === '' ? '✓ The ports fit.' : `✕ They cannot be connected: ${why}.`);
+    setClass(find('connect-fit'), why === '' ? '' : 'bad');
+    find('connect-form').querySelector('button').disabled = why !== '';
+    const offered = why === '' ? commonProperties(a, b) : [], key = JSON.stringify(offered);
+    if (this.offered === key) return;
+    this.offered = key;
+    find('connect-properties').replaceChildren(...offered.map(([name, values]) => {
+      const label = make('label', '', `${name.replace('_', ' ')} `), select = make('select');
+      select.name = name;
+      select.append(new Option('default', ''), ...values.map((value) => new Option(value, value)));
+      label.append(select);
+      return label;
+    }));
+  }
+
+  connect() {
+    const [a, b] = this.chosen(), ports = [a.name, b.name];
+    const properties = [...find('connect-properties').querySelectorAll('select')].filter(({value}) => value !== '').map(({name, value}) => `${name}=${value}`);
+    this.act({op: 'rtm', command: 'connect', arguments: ports, ...properties.length > 0 ? {properties} : {}}, `Connect ${ports.join(' and ')}`,
+      {text: `disconnect ${ports.join(' and ')}`, request: {op: 'rtm', command: 'disconnect', arguments: ports}});
+  }
+
+  createConnection({id, ports, properties}) {
+    const item = make('li'), again = propertiesAgain(properties), names = ports.join(' → ');
+    const kind = ['dataport.dataflow_type', 'dataport.subscription_type'].map((key) => properties[key]).filter(Boolean).join(', ');
+    const drop = button('Disconnect', () => this.act({op: 'rtm', command: 'disconnect', arguments: ports.slice(0, 2), connection: id}, `Disconnect ${names}`,
+      {text: `connect ${names}`, request: {op: 'rtm', command: 'connect', arguments: ports, ...again.length > 0 ? {properties: again} : {}}}));
+    drop.ariaLabel = `Disconnect ${names}`;
+    item.append(make('b', '', names), make('span', 'empty', kind), drop);
+    return item;
+  }
+
+  /** Carries out a change, says what became of it, and keeps how to undo it: {text, request}. Returns whether it was done. */
+  async act(request, text, undo = null) {
+    setClass(find('system-answer'), '');
+    setText(find('system-answer'), `${text}: waiting for the answer ...`);
+    const reply = await this.connection.ask(request), lines = reply.text.trim();
+    setClass(find('system-answer'), reply.ok ? '' : 'bad');
+    setText(find('system-answer'), reply.ok ? `✓ ${text}: done` : `✕ ${text}: ${lines || 'failed'}`);
+    if (reply.ok && undo) this.done = [...this.done, undo].slice(-mostUndone);
+    this.showUndo();
+    await this.read();
+    return reply.ok;
+  }
+
+  async undo() {
+    const last = this.done.pop();
+    this.showUndo();
+    if (await this.act(last.request, `Undo: ${last.text}`)) this.parameters.refresh();
+    else this.done.push(last); // it may be possible later
+    this.showUndo();
+  }
+
+  showUndo() {
+    const last = this.done.at(-1);
+    find('system-undo').hidden = !last;
+    setText(find('system-undo'), last ? `↶ Undo: ${last.text}` : '');
+    setAttributes(find('system-undo'), {title: `${this.done.length} changes can be undone`});
+  }
+}
