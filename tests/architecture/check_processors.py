@@ -17,6 +17,9 @@ PROCESSOR_FILES = [
     "host/crash/stack_trace.cpp",  # the program counter of a crashed thread
     "cmake/toolchains/",
     "tests/arm64.sh",
+    "tests/cross_compile.sh",
+    "tests/shm/model/litmus/",  # arm64's memory model
+    "apps/dependencies.txt",
     "tests/architecture/check_processors",
     "apps/tandem/build/packages/header_packages.txt",  # names of files in Debian's packages
     "apps/tandem/build/packages/write_table.py",

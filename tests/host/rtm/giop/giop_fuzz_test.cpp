@@ -11,7 +11,7 @@
 
 using namespace testing;
 
-CATCH_TRANSLATE_EXCEPTION(CORBA::SystemException& e) {
+CATCH_TRANSLATE_EXCEPTION(const CORBA::SystemException& e) {
     const char* minor = e.NP_minorString();
     return std::string("CORBA exception ") + e._name() + " " + (minor != nullptr ? minor : "");
 }
