@@ -140,6 +140,10 @@ test("pictures of every view, also in the dark and on a phone", async () => {
 test("a killed host turns the verdict red, and its restart turns it back", async () => {
   await verdictIsFine();
   const restart = chair.child.line(/to restart it: (.*)/);
+  await view("graph");
+  const places = () => page.locator("#graph").evaluate((graph) => [...graph.querySelectorAll(".component")].map((component) =>
+    [component.querySelector(".name").textContent, component.querySelector("rect").getAttribute("x"), component.querySelector("rect").getAttribute("y")].join()));
+  const placed = await places();
   const killed = performance.now();
   process.kill(chair.rtm, "SIGKILL");
   await page.waitForSelector("#verdict:is(.dead, .gone)");
@@ -148,12 +152,14 @@ test("a killed host turns the verdict red, and its restart turns it back", async
   assert.match(await text("#verdict .reason"), new RegExp(`the RTM host rtm_host \\(pid ${chair.rtm}\\) has died`));
   await page.waitForSelector("#graph .host:is(.dead, .gone)");
   assert.equal(await page.locator("#graph .edge.dead").count(), 4);
+  assert.deepEqual(await places(), placed);
   await picture("dead", "#verdict");
   await picture("dead-graph", "#graph-section");
   const [, command] = await restart;
   start("/bin/sh", ["-c", `exec ${command}`]);
   await verdictIsFine();
   await page.waitForFunction(() => document.querySelectorAll("#graph .edge.live").length === 2);
+  assert.deepEqual(await places(), placed);
   await view("events");
   await page.waitForFunction(() => document.querySelector("#events").textContent.includes("has started again"));
   assert.match(await text("#events"), /rtm_host \(pid \d+\) has died/);

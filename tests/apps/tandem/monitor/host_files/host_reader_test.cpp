@@ -32,7 +32,7 @@ std::shared_ptr<const HostInventory> read_own_inventory() {
 State hosts_of(bool without_links, const std::vector<LinkState>& links) {
     HostReader reader(without_links);
     State state;
-    for (const std::uint64_t now_ns : {1'000'000'000, 3'000'000'000}) {
+    for (const std::uint64_t now_ns : {1'000'000'000ULL, 3'000'000'000ULL}) {
         state = {};
         state.links = links;
         reader.read(state, now_ns);
