@@ -26,12 +26,15 @@ function describe(chair) {
     `${chair.volts_left.toFixed(1)} V left, ${chair.volts_right.toFixed(1)} V right`;
 }
 
-/** Returns the newest value of a port `chair` with its link's name; nothing if there is none. */
-export function findChair(state) {
-  for (const link of state.links)
-    for (const port of link.ports)
-      if (port.name === 'chair' && port.type === 'Wheelchair::Chair' && port.value) return {link: link.name, port, ...port.value};
-  return null;
+/** Returns the newest values of all ports `chair` with their link's name. */
+const chairsIn = (state) => state.links.flatMap((link) => link.ports
+  .filter((port) => port.name === 'chair' && port.type === 'Wheelchair::Chair' && port.value)
+  .map((port) => ({link: link.name, port, ...port.value})));
+
+/** Returns the chair of a link, or else the first one; null if there is none. */
+export function findChair(state, link) {
+  const chairs = chairsIn(state);
+  return chairs.find((chair) => chair.link === link) ?? chairs[0] ?? null;
 }
 
 /** Returns the chair from above, looking to the right. */
@@ -79,7 +82,8 @@ export class Chair {
   }
 
   show(state) {
-    const chair = findChair(state);
+    this.offerChairs(chairsIn(state).map((each) => each.link));
+    const chair = findChair(state, find('chair-choice').value);
     this.stick.offer(chair !== null && chair.drive ? chair.link : null);
     if (chair === null) {
       if (this.link !== null) setText(find('chair-state'), 'The wheelchair has ended.');
@@ -94,6 +98,17 @@ export class Chair {
     this.drawMap(chair);
     this.drawStick(chair);
     if (!find('chair-section').hidden) this.drawSteering(keyOfPort({name: chair.link}, chair.port));
+  }
+
+  /** Lets the person choose if there are several. */
+  offerChairs(links) {
+    const select = find('chair-choice'), key = links.join(' ');
+    find('chair-choices').hidden = links.length < 2;
+    if (select.key === key) return;
+    const chosen = select.value;
+    select.key = key;
+    select.replaceChildren(...links.map((link) => new Option(link, link)));
+    if (links.includes(chosen)) select.value = chosen;
   }
 
   /** Called when another view is shown. */

@@ -81,6 +81,14 @@ export function propertiesAgain(properties) {
     .map(([key, value]) => `${key}=${value}`).slice(0, 16);
 }
 
+/** Returns the connections and active RT-Components as lines of rtc.conf, for the folder of a `tandem run`. */
+export function rtcConfOf(components) {
+  const connections = connectionsIn(components).filter(({ports}) => ports.length === 2).map(({ports: [from, to], properties}) =>
+    [`${from}?port=${to}`, ...propertiesAgain(properties).map((each) => each.replace(/^dataport\./, ''))].join('&'));
+  const active = components.filter(({model, state}) => model === 'RTM' && state === 'ACTIVE').map(({name}) => name);
+  return `manager.components.preconnect: ${connections.join(', ')}\nmanager.components.preactivation: ${active.join(', ')}\n`;
+}
+
 /** What can be done to a component in a state: [command, label, command that undoes it]. */
 export function actionsFor({model, state}) {
   const of = {

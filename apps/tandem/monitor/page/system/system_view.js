@@ -2,7 +2,7 @@
 // Changes the system: activates components, connects ports, sets parameters, and undoes the last changes.
 import {KeyedList, make, setAttributes, setClass, setText} from '../dom.js';
 import {ParametersView} from './parameters_view.js';
-import {actionsFor, commonProperties, componentsIn, connectionsIn, jsonIn, portLabel, propertiesAgain, whyNot} from './system.js';
+import {actionsFor, commonProperties, componentsIn, connectionsIn, jsonIn, portLabel, propertiesAgain, rtcConfOf, whyNot} from './system.js';
 
 const find = (id) => document.getElementById(id);
 const mostRows = 200, mostUndone = 50;
@@ -29,6 +29,7 @@ export class SystemView {
     });
     find('system-filter').addEventListener('input', () => this.draw());
     find('system-refresh').addEventListener('click', () => this.read());
+    find('system-save').addEventListener('click', () => this.save());
     find('system-undo').addEventListener('click', () => this.undo());
   }
 
@@ -163,6 +164,14 @@ export class SystemView {
     this.showUndo();
     await this.read();
     return reply.ok;
+  }
+
+  /** Downloads the connections and the active components. */
+  save() {
+    const link = make('a');
+    Object.assign(link, {href: URL.createObjectURL(new Blob([rtcConfOf(this.components)], {type: 'text/plain'})), download: 'rtc.conf'});
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 10000);
   }
 
   async undo() {

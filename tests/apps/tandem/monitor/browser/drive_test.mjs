@@ -174,3 +174,22 @@ test("an emergency stop that does not reach the chair says so", async () => {
   await driver.waitForFunction(() => /^✕ Emergency stop failed: .*Stop the chair by its own switch/.test(document.querySelector("#drive-answer").textContent));
   await driver.close();
 });
+
+test("one of several wheelchairs is chosen, and the map follows it", async () => {
+  const shown = await page.evaluate(async () => {
+    const { Chair } = await import("./chair.js"), { SampleStore } = await import("./samples.js");
+    const chair = new Chair({ listeners: [], open: false }, new SampleStore()), find = (id) => document.getElementById(id);
+    const value = (x) => ({ t: x, x, y: 0, heading_deg: 0, wheel_left: 1, wheel_right: 1, state: 0, brake: 0, volts_left: 1, volts_right: 1, stick_x: 0, stick_y: 0, drive: "", emergency_stop: 0 });
+    const of = (link, x) => ({ name: link, ports: [{ name: "chair", owner: "first", type: "Wheelchair::Chair", value: value(x) }] });
+    const show = (x) => chair.show({ control: { allowed: false }, links: [of("a-chair", 0), of("b-chair", x)] });
+    find("chair-section").hidden = true;
+    show(20);
+    const first = find("chair-place").textContent;
+    find("chair-choice").value = "b-chair";
+    for (let x = 20; x < 60; x += 0.5) show(x);
+    return [first, find("chair-place").textContent, find("chair-map").getAttribute("viewBox").split(" ").map(Number)];
+  });
+  assert.match(shown[0], /^x 0\.00 m/);
+  assert.match(shown[1], /^x 59\.50 m/);
+  assert.ok(shown[2][0] < 59.5 && 59.5 < shown[2][0] + shown[2][2] && shown[2][2] === 8, shown[2].join());
+});

@@ -2,6 +2,7 @@
 // A person with the token changes the system from the page: connects and disconnects ports, stops and starts components, sets
 // parameters, undoes it, and reads the log.
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { cleanUp, startBrowser, startMonitor, startWheelchair } from "./robot.mjs";
@@ -66,6 +67,16 @@ test("a connection is removed and made again, and two ports that do not fit say 
   await page.locator("#connect-form button").click();
   await answerIs(/^✓ Connect .*: done/);
   await page.waitForFunction((count) => document.querySelectorAll("#system-connections li").length === count, before);
+});
+
+test("the connections and active components are saved as lines of rtc.conf", async () => {
+  const [download] = await Promise.all([page.waitForEvent("download"), page.locator("#system-save").click()]);
+  assert.equal(download.suggestedFilename(), "rtc.conf");
+  const file = join(process.env.TANDEM_PICTURES, "saved-rtc.conf");
+  await download.saveAs(file);
+  const text = readFileSync(file, "utf8");
+  assert.match(text, /^manager\.components\.preconnect: .*JoystickComp0\.\w+\?port=\w+\.\w+/);
+  assert.match(text, /\nmanager\.components\.preactivation: .*JoystickComp0/);
 });
 
 test("a property is set, and undo sets the old value", async () => {
