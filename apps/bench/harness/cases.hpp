@@ -22,6 +22,7 @@ void add_paired_cases(Registry& registry);
 void add_port_cases(Registry& registry);
 void add_publish_count_cases(Registry& registry);
 void add_ring_cases(Registry& registry);
+void add_rtm_call_cases(Registry& registry);
 void add_rtm_cases(Registry& registry);
 void add_scale_cases(Registry& registry);
 void add_stream_cases(Registry& registry);

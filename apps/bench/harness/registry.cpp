@@ -34,6 +34,7 @@ Registry all_cases() {
     add_paired_cases(registry);
     add_opros_cases(registry);
     add_publish_count_cases(registry);
+    add_rtm_call_cases(registry);
     add_rtm_cases(registry);
     add_wheelchair_cases(registry);
     add_scale_cases(registry);

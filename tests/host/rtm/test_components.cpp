@@ -3,6 +3,7 @@
 #include "components.hpp"
 #include "ending_components.hpp"
 #include "openrtm_components.hpp"
+#include "talker.hpp"
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
@@ -259,6 +260,7 @@ extern "C" void TestComponentsInit(RTC::Manager* manager) {
     register_component_type<HangingComponent>(*manager, "HangingComponent");
     register_component_type<FaultInjector>(*manager, "FaultInjector");
     register_component_type<BadPeer>(*manager, "BadPeer");
+    register_component_type<Talker>(*manager, "Talker");
     register_openrtm_components(*manager);
     register_ending_components(*manager);
     register_component_type<SlowDevice>(*manager, "SlowDevice");

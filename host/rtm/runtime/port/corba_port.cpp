@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // CorbaPort: service ports, whose providers publish IORs and whose consumers get them.
 #include "host/rtm/runtime/port/provider.hpp"
+#include "host/rtm/runtime/port/remote_port.hpp"
 #include <algorithm>
 #include <coil/stringutil.h>
 #include <rtm/CorbaPort.h>
@@ -86,13 +87,14 @@ std::string CorbaPort::propertyKey(const char* polarity, const std::string& desc
 ReturnCode_t CorbaPort::publishInterfaces(ConnectorProfile& profile) {
     const ReturnCode_t allowed = _publishInterfaces();
     if (allowed != RTC_OK) return allowed;
+    const bool is_remote = has_remote_port(profile);
     for (auto& provider : m_providers) {
         // Under the key of 1.1 and later, and under the short one of 1.0.
-        CORBA_SeqUtil::push_back(
-            profile.properties,
-            NVUtil::newNV(propertyKey("provided", provider->descriptor()).c_str(), provider->ior().c_str()));
+        const std::string key = propertyKey("provided", provider->descriptor());
+        CORBA_SeqUtil::push_back(profile.properties, NVUtil::newNV(key.c_str(), provider->ior().c_str()));
         CORBA_SeqUtil::push_back(profile.properties, NVUtil::newNV(("port." + provider->descriptor()).c_str(),
                                                                    provider->ior().c_str()));
+        if (is_remote) provider->offer_shared_calls(profile, key);
     }
     return RTC_OK;
 }
@@ -112,7 +114,10 @@ ReturnCode_t CorbaPort::subscribeInterfaces(const ConnectorProfile& profile) {
     const bool strict = NVUtil::isStringValue(profile.properties, "port.connection.strictness", "strict");
     for (auto& consumer : m_consumers) {
         const std::string ior = findProviderIor(profile.properties, consumer);
-        if (!ior.empty() && bindConsumer(ior, consumer)) continue;
+        if (!ior.empty() && bindConsumer(ior, consumer)) {
+            share_calls_if_possible(consumer.consumer->getObject(), ior, profile);
+            continue;
+        }
         const std::string reason = std::string(getName()) + ": no provider for " + consumer.type +
                                    ", instance name " + consumer.instance + ", on the other side";
         if (strict) return refuse(RTC_ERROR, reason);
@@ -144,6 +149,8 @@ bool CorbaPort::bindConsumer(const std::string& ior, Consumer& consumer) {
 
 // Consumers of this connection no longer have a provider. Calls through them throw.
 void CorbaPort::unsubscribeInterfaces(const ConnectorProfile& profile) {
+    for (auto& provider : m_providers)
+        provider->end_shared_calls(static_cast<const char*>(profile.connector_id));
     for (auto& consumer : m_consumers) {
         // A later connection may have given the consumer another provider, which it keeps.
         if (consumer.ior.empty() || findProviderIor(profile.properties, consumer) != consumer.ior) continue;

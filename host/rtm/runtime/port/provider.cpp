@@ -28,9 +28,11 @@ class CorbaPort::Provider::Object {
         id_ = poa_->activate_object(servant_);
     }
 
+    /// The caller releases it.
+    CORBA::Object_ptr reference() const { return poa_->id_to_reference(id_.in()); }
     std::string publish() const {
-        CORBA::Object_var reference = poa_->id_to_reference(id_.in());
-        CORBA::String_var ior = Manager::instance().theORB()->object_to_string(reference.in());
+        const CORBA::Object_var own_reference = reference();
+        CORBA::String_var ior = Manager::instance().theORB()->object_to_string(own_reference.in());
         poa_->deactivate_object(id_.in());
         return ior.in();
     }
@@ -122,6 +124,18 @@ void CorbaPort::Provider::activate(const std::string& component, const std::stri
 void CorbaPort::Provider::deactivate() {
     if (object_->deactivate()) set_servant_owner(called_, nullptr);
 }
+
+void CorbaPort::Provider::offer_shared_calls(ConnectorProfile& profile, const std::string& key) {
+    if (!shared_calls_) {
+        const CORBA::Object_var reference = object_->reference();
+        shared_calls_ = std::make_unique<SharedCallsOffer>(reference.in());
+    }
+    shared_calls_->publish(profile, key);
+}
+void CorbaPort::Provider::end_shared_calls(const std::string& connection) {
+    if (shared_calls_) shared_calls_->end(connection);
+}
+
 void CorbaPort::Provider::wait_for_activation() { object_->wait_for_activation(); }
 
 } // namespace RTC

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "host/rtm/runtime/transport/call/shared_calls.hpp"
 #include <memory>
 #include <rtm/CorbaPort.h>
 #include <string>
@@ -22,6 +23,10 @@ class CorbaPort::Provider {
     void deactivate();
     /// Waits, after deactivate(), at most 1 s until the activation is over. Afterwards nothing refers to the servant.
     void wait_for_activation();
+    /// Offers, under a key beside `key`, to execute calls that come through shared memory.
+    void offer_shared_calls(ConnectorProfile& profile, const std::string& key);
+    /// Ends the calls through shared memory of a connection, except those that are being executed.
+    void end_shared_calls(const std::string& connection);
     const std::string& descriptor() const { return descriptor_; }
     const std::string& ior() const { return ior_; }
 
@@ -30,7 +35,8 @@ class CorbaPort::Provider {
     const std::string descriptor_;
     std::string ior_;
     std::shared_ptr<Object> object_;
-    const omniServant* called_ = nullptr; ///< the servant, as set_servant_owner() knows it
+    std::unique_ptr<SharedCallsOffer> shared_calls_; ///< from the first connection with another process on
+    const omniServant* called_ = nullptr;            ///< the servant, as set_servant_owner() knows it
 };
 
 } // namespace RTC
