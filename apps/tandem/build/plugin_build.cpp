@@ -7,6 +7,7 @@
 #include "apps/tandem/build/folder/cmake_lists.hpp"
 #include "apps/tandem/build/folder/source_text.hpp"
 #include "apps/tandem/build/include_scan.hpp"
+#include "apps/tandem/build/missing_names.hpp"
 #include "apps/tandem/build/packages/header_packages.hpp"
 #include "apps/tandem/build/packages/installed_library.hpp"
 #include "apps/tandem/build/plain_path.hpp"
@@ -14,7 +15,6 @@
 #include "apps/tandem/build/project/cmake_projects.hpp"
 #include "apps/tandem/build/remedy.hpp"
 #include "apps/tandem/build/select_sources.hpp"
-#include "apps/tandem/build/windows_names.hpp"
 #include "apps/tandem/output/print.hpp"
 #include "apps/tandem/output/print_note.hpp"
 #include "host/process/run_command.hpp"
@@ -49,10 +49,10 @@ struct Plugin {
         installed; ///< by the include folder that the compiler does not search
     bool needs_cv_h =
         false; ///< uses OpenCV's C API through headers that contained it in OpenCV 2 and 3 but not in 4
-    std::map<std::string, std::string> windows_names{}; ///< with their declarations
+    std::map<std::string, std::string> missing_names{}; ///< with their declarations
 };
 
-constexpr char windows_header[] = "tandem_windows_names.h"; // beside the forwarding headers
+constexpr char names_header[] = "tandem_missing_names.h"; // beside the forwarding headers
 
 // Returns a keyword of the CMake function with its values; "" without values.
 std::string cmake_argument(const char* keyword, const std::vector<std::string>& values) {
@@ -95,7 +95,7 @@ std::vector<fs::path> include_dirs(const Plugin& plugin, const PluginBuildOption
 std::string compile_options(const Plugin& plugin) {
     auto options = plugin.sources.target.options;
     if (plugin.needs_cv_h) options.emplace_back("SHELL:-include cv.h -include highgui.h");
-    if (!plugin.windows_names.empty()) options.push_back(std::string("SHELL:-include ") + windows_header);
+    if (!plugin.missing_names.empty()) options.push_back(std::string("SHELL:-include ") + names_header);
     std::string text;
     for (const auto& option : options)
         text +=
@@ -254,36 +254,40 @@ bool add_cv_h(const std::string& output, Plugin& plugin) {
     return true;
 }
 
-// Declares simple names that the sources expect from headers of Windows. Returns whether it added one, and prints notes.
-bool add_windows_names(const std::string& output, std::map<std::string, std::string>& names) {
+// Adds declarations and standard headers that the sources lack. Returns whether it added one, and prints notes.
+bool add_names(const std::string& output, std::map<std::string, std::string>& names) {
     bool added = false;
-    for (const auto& [name, declaration] : missing_windows_names(output)) {
+    for (const auto& [name, declaration] : missing_names(output)) {
         if (!names.emplace(name, declaration).second) continue;
-        print_note("tandem: {} is a name of Windows headers; declaring it: {}\n", name, declaration);
+        print_note("tandem: {} is missing; adding: {}\n", name, declaration);
         added = true;
     }
     return added;
 }
 
-// Adds the source that defines a missing function: one of the folder that its project file does not list, or else the
-// only one in the checkout. Returns whether it added one, and prints notes.
+// Adds the only one of the files that defines the symbol. Returns whether it did, and prints a note.
+bool add_source(const std::vector<fs::path>& files, const std::string& symbol, Plugin& plugin) {
+    const auto found = find_definitions(files, symbol);
+    auto& sources = plugin.sources.sources;
+    if (found.size() != 1 || std::find(sources.begin(), sources.end(), found[0]) != sources.end() ||
+        defines_function(read_text(found[0]), plugin.entry_function))
+        return false;
+    require_cmake_path(found[0]);
+    sources.push_back(found[0]);
+    print_note("tandem: {} is undefined; also compiling {}\n", symbol,
+               found[0].lexically_proximate(fs::current_path()).string());
+    return true;
+}
+
+// Adds sources that define missing functions: those of the folder that its project file does not list, or else one
+// of the checkout, whose search reads all files.
 bool add_sources(const std::string& output, const PluginBuildOptions& options, Plugin& plugin) {
     if (!options.sources.sources.empty() || !options.sources.excluded.empty()) return false;
-    const auto files = checkout_files(options.folder);
-    auto& sources = plugin.sources.sources;
-    const auto before = sources.size();
-    for (const auto& symbol : undefined_symbols(output)) {
-        auto found = find_definitions(plugin.sources.left_out, symbol);
-        if (found.empty()) found = find_definitions(files, symbol);
-        if (found.size() != 1 || std::find(sources.begin(), sources.end(), found[0]) != sources.end() ||
-            defines_function(read_text(found[0]), plugin.entry_function))
-            continue;
-        require_cmake_path(found[0]);
-        sources.push_back(found[0]);
-        print_note("tandem: {} is undefined; also compiling {}\n", symbol,
-                   found[0].lexically_proximate(fs::current_path()).string());
-    }
-    return sources.size() != before;
+    const auto symbols = undefined_symbols(output);
+    bool added = false;
+    for (const auto& symbol : symbols) added |= add_source(plugin.sources.left_out, symbol, plugin);
+    return added ||
+           (!symbols.empty() && add_source(checkout_files(options.folder), *symbols.begin(), plugin));
 }
 
 // Configures and compiles in the folder `build`. Repeats both when it has found what was missing.
@@ -295,8 +299,8 @@ void compile(Plugin& plugin, const PluginBuildOptions& options, const fs::path& 
         for (const auto& idl : plugin.includes.idl_files) require_cmake_path(idl); // from any sub-folder
         const auto forwards = write_forwards(plugin.includes.forwards, build / "forwards");
         std::string declarations;
-        for (const auto& [name, declaration] : plugin.windows_names) declarations += declaration + "\n";
-        write_file(forwards / windows_header, declarations);
+        for (const auto& [name, declaration] : plugin.missing_names) declarations += declaration + "\n";
+        write_file(forwards / names_header, declarations);
         write_file(build / "CMakeLists.txt", cmake_project(plugin, options, build, forwards));
         // Two steps, each with a separate time limit and message. CMAKE_HAVE_LIBC_PTHREAD saves CMake a
         // test program: glibc has threads in libc since 2.34.
@@ -312,7 +316,7 @@ void compile(Plugin& plugin, const PluginBuildOptions& options, const fs::path& 
         if (!output) return;
         if (!add_neighbours(*output, options.folder, plugin.neighbours) &&
             !add_installed(*output, plugin.installed) && !add_cv_h(*output, plugin) &&
-            !add_windows_names(*output, plugin.windows_names) && !add_sources(*output, options, plugin))
+            !add_names(*output, plugin.missing_names) && !add_sources(*output, options, plugin))
             fail(*output, plugin, options, "does not compile");
     }
 }

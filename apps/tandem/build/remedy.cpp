@@ -4,10 +4,10 @@
 #include "apps/tandem/build/first_error.hpp"
 #include "apps/tandem/build/folder/checkout.hpp"
 #include "apps/tandem/build/folder/source_text.hpp"
+#include "apps/tandem/build/missing_names.hpp"
 #include "apps/tandem/build/packages/header_packages.hpp"
 #include "apps/tandem/build/packages/installed_library.hpp"
 #include "apps/tandem/build/packages/symbol_libraries.hpp"
-#include "apps/tandem/build/windows_names.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

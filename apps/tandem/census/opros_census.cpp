@@ -37,6 +37,13 @@ bool contains_source(const std::vector<fs::path>& files) {
     return std::any_of(files.begin(), files.end(), [](const auto& file) { return is_source(file); });
 }
 
+// Folders of device libraries may have the profile of the component that uses them.
+bool contains_component(const std::vector<fs::path>& files) {
+    return std::any_of(files.begin(), files.end(), [](const auto& file) {
+        return is_source(file) && read_text(file).find("getComponent") != std::string::npos;
+    });
+}
+
 // Returns the folder of the component whose profile belongs to `folder`. Workspaces have one folder with the profiles of
 // all components, whose folders have their names.
 fs::path component_folder(const fs::path& folder, const std::string& name) {
@@ -64,7 +71,7 @@ class Finder {
             file, place == "profile" || place == "profiles" ? parent.parent_path() : parent, profile);
         if (!candidate) return;
         candidate->folder = component_folder(candidate->folder, candidate->name);
-        if (!contains_source(list_files_below(candidate->folder))) {
+        if (!contains_component(list_files_below(candidate->folder))) {
             ++without_source_;
             return;
         }

@@ -125,6 +125,8 @@ TEST_CASE(
     write_opros(folder, "Crashing", "std::raise(SIGSEGV);");
     folder.write("shelf/bought/Bought.xml", "<component_profile><name>Bought</name></component_profile>");
     folder.write("shelf/data.xml", "<calibration/>");
+    folder.write("shelf/device/Device.xml", "<component_profile><name>Bought</name></component_profile>");
+    folder.write("shelf/device/device.cpp", "extern \"C\" void* GetAPI() { return nullptr; }\n");
     const auto result = tandem_program({"opros", "census", folder.path() / "shelf", "--seconds", "1"});
     INFO(result.output << result.errors);
     CHECK(result.exit_code == 2);
@@ -132,7 +134,7 @@ TEST_CASE(
         result.output,
         Catch::StartsWith("COMPONENT") && Catch::Contains("BUILT  LOADS  CYCLES  FIRST ERROR") &&
             Catch::EndsWith(
-                "2 components: 2 built, 2 load, 1 run; 1 component profile has no source beside it\n"));
+                "2 components: 2 built, 2 load, 1 run; 2 component profiles have no source beside them\n"));
     const auto lines = std::count(result.output.begin(), result.output.end(), '\n');
     CHECK(lines == 4);
     CHECK_THAT(result.output, Catch::Contains("onExecute"));

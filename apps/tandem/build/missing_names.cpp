@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/tandem/build/windows_names.hpp"
+#include "apps/tandem/build/missing_names.hpp"
 #include "apps/tandem/build/first_error.hpp"
 
 #include <set>
@@ -7,7 +7,7 @@
 
 namespace tandem::command {
 
-std::map<std::string, std::string> missing_windows_names(const std::string& output) {
+std::map<std::string, std::string> missing_names(const std::string& output) {
     static const std::map<std::string, std::string> declarations{
         {"BOOL", "typedef int BOOL;"},
         {"BYTE", "typedef unsigned char BYTE;"},
@@ -19,9 +19,13 @@ std::map<std::string, std::string> missing_windows_names(const std::string& outp
     };
     std::map<std::string, std::string> missing;
     std::istringstream lines(output);
-    for (std::string line; std::getline(lines, line);)
+    for (std::string line; std::getline(lines, line);) {
         if (const auto known = declarations.find(unknown_name(line)); known != declarations.end())
             missing.insert(*known);
+        if (line.find("did you forget to") == std::string::npos) continue; // advice of g++
+        if (const auto header = between(line, "#include <", ">"); !header.empty())
+            missing.emplace("<" + header + ">", "#include <" + header + ">");
+    }
     return missing;
 }
 
