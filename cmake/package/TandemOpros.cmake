@@ -2,7 +2,8 @@
 # tandem_add_opros_component(NAME [FOLDER dir] [SOURCES a.cpp ...] [INCLUDE_DIRS dir ...] [PROFILES X.xml ...]
 #                            [DEFINITIONS X=1 ...] [LIBRARIES x ...] [PKG_CONFIG module ...] [CXX_STANDARD 14])
 # The plugin NAME.so of an OPRoS component, its profiles copied beside it. All but NAME has a default: the sources and
-# profiles that lie in the folder (the current source folder), as OPRoS components are laid out.
+# profiles that lie in the folder (the current source folder), as OPRoS components are laid out. Sources with a main() are
+# programs and stay out, also of CANDIDATES, which are taken in place of those in the folder.
 
 # Sources, include folders and profiles of a component's folder.
 function(tandem_opros_folder folder sources include_dirs profiles)
@@ -32,12 +33,16 @@ endfunction()
 
 function(tandem_add_opros_component name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "FOLDER;CXX_STANDARD;FORWARDS"
-    "SOURCES;INCLUDE_DIRS;PROFILES;DEFINITIONS;LIBRARIES;PKG_CONFIG;PKG_CONFIG_IF_FOUND;LIBRARIES_IF_FOUND;LIBRARY_DIRS")
+    "SOURCES;CANDIDATES;INCLUDE_DIRS;PROFILES;DEFINITIONS;LIBRARIES;PKG_CONFIG;PKG_CONFIG_IF_FOUND;LIBRARIES_IF_FOUND;LIBRARY_DIRS")
   if(arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "tandem_add_opros_component(${name}): unknown arguments ${arg_UNPARSED_ARGUMENTS}")
   endif()
   get_filename_component(folder "${arg_FOLDER}" ABSOLUTE)
   tandem_opros_folder(${folder} sources include_dirs profiles)
+  if(arg_CANDIDATES)
+    set(sources ${arg_CANDIDATES})
+  endif()
+  tandem_remove_programs(sources)
   if(arg_SOURCES)
     set(sources ${arg_SOURCES})
   endif()

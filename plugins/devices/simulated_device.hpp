@@ -77,11 +77,17 @@ class SimulatedDevice : public Class {
         return perform([&] { to = from; });
     }
 
-    /// Returns a parameter as a number; 0 if it is not a number; the default if it does not exist. [in configure()]
+    /// Returns a parameter as a number; 0 if it is not a number. If it does not exist, returns the default and keeps it
+    /// for GetParameter(), because components ask the device for the size of its data. [in configure()]
     double number_parameter(const std::string& name, double default_value) {
-        if (!parameters_.FindName(name)) return default_value;
-        std::istringstream text(parameters_.GetValue(name));
+        std::stringstream text;
         text.imbue(std::locale::classic()); // a component may have set another locale
+        if (!parameters_.FindName(name)) {
+            text << default_value;
+            parameters_.SetValue(name, text.str());
+            return default_value;
+        }
+        text.str(parameters_.GetValue(name));
         double value = 0;
         text >> value;
         return value;

@@ -4,6 +4,7 @@
 #include <regex>
 #include <sstream>
 #include <string_view>
+#include <utility>
 
 namespace tandem::command {
 namespace {
@@ -67,6 +68,37 @@ std::vector<std::string> missing_headers(const std::string& output) {
     for (std::string line; std::getline(lines, line);)
         if (const auto header = missing_header(line); !header.empty()) headers.push_back(header);
     return headers;
+}
+
+std::string between(const std::string& text, const std::string& before, const std::string& after) {
+    const auto begin = text.find(before);
+    if (begin == std::string::npos) return "";
+    const auto end = text.find(after, begin + before.size());
+    return end == std::string::npos ? "" : text.substr(begin + before.size(), end - begin - before.size());
+}
+
+std::string unknown_name(const std::string& line) {
+    // g++ quotes names with these quotes in a UTF-8 locale, otherwise with apostrophes.
+    for (const auto& [open, close] : {std::pair{"\u2018", "\u2019"}, std::pair{"'", "'"}}) {
+        auto name = between(line, std::string("error: ") + open, close);
+        if (!name.empty() && (line.find(" was not declared") != std::string::npos ||
+                              line.find(" does not name a type") != std::string::npos ||
+                              line.find(" has not been declared") != std::string::npos))
+            return name;
+    }
+    return "";
+}
+
+std::string undefined_symbol(const std::string& line) {
+    return between(line, "undefined reference to `", "'");
+}
+
+std::set<std::string> undefined_symbols(const std::string& output) {
+    std::istringstream lines(output);
+    std::set<std::string> symbols;
+    for (std::string line; std::getline(lines, line);)
+        if (auto symbol = undefined_symbol(line); !symbol.empty()) symbols.insert(std::move(symbol));
+    return symbols;
 }
 
 } // namespace tandem::command

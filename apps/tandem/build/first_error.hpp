@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,5 +19,17 @@ std::string missing_idl(const std::string& line);
 
 /// Returns the names of all headers that a build's output reports as missing.
 std::vector<std::string> missing_headers(const std::string& output);
+
+/// Returns the text between two others; "" if they are missing.
+std::string between(const std::string& text, const std::string& before, const std::string& after);
+
+/// Returns the name that the compiler does not know according to an error line; "" for any other line.
+std::string unknown_name(const std::string& line);
+
+/// Returns the name in an "undefined reference" line of the linker; "" for any other line.
+std::string undefined_symbol(const std::string& line);
+
+/// Returns the names of all functions and variables that a build's output reports as undefined.
+std::set<std::string> undefined_symbols(const std::string& output);
 
 } // namespace tandem::command

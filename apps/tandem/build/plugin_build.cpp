@@ -7,6 +7,7 @@
 #include "apps/tandem/build/folder/cmake_lists.hpp"
 #include "apps/tandem/build/folder/source_text.hpp"
 #include "apps/tandem/build/include_scan.hpp"
+#include "apps/tandem/build/missing_names.hpp"
 #include "apps/tandem/build/packages/header_packages.hpp"
 #include "apps/tandem/build/packages/installed_library.hpp"
 #include "apps/tandem/build/plain_path.hpp"
@@ -38,7 +39,7 @@ namespace fs = std::filesystem;
 
 /// The plugin to build: the component of a model in a folder.
 struct Plugin {
-    std::string model, name;
+    std::string model, name, entry_function;
     SelectedSources sources;
     std::vector<std::string> definitions; ///< from the component's project files
     std::string problem;                  ///< of the component's CMake project; "": none
@@ -48,7 +49,10 @@ struct Plugin {
         installed; ///< by the include folder that the compiler does not search
     bool needs_cv_h =
         false; ///< uses OpenCV's C API through headers that contained it in OpenCV 2 and 3 but not in 4
+    std::map<std::string, std::string> missing_names{}; ///< with their declarations
 };
+
+constexpr char names_header[] = "tandem_missing_names.h"; // beside the forwarding headers
 
 // Returns a keyword of the CMake function with its values; "" without values.
 std::string cmake_argument(const char* keyword, const std::vector<std::string>& values) {
@@ -91,6 +95,7 @@ std::vector<fs::path> include_dirs(const Plugin& plugin, const PluginBuildOption
 std::string compile_options(const Plugin& plugin) {
     auto options = plugin.sources.target.options;
     if (plugin.needs_cv_h) options.emplace_back("SHELL:-include cv.h -include highgui.h");
+    if (!plugin.missing_names.empty()) options.push_back(std::string("SHELL:-include ") + names_header);
     std::string text;
     for (const auto& option : options)
         text +=
@@ -125,13 +130,13 @@ std::string cmake_project(const Plugin& plugin, const PluginBuildOptions& option
     // Definitions from the command line come last, because the compiler uses the last definition of a name.
     std::vector<std::string> definitions = plugin.definitions;
     definitions.insert(definitions.end(), options.definitions.begin(), options.definitions.end());
-    const bool rtm = plugin.model == "rtm"; // the CMake function of RTM skips programs
+    const bool rtm = plugin.model == "rtm";
     return std::string("cmake_minimum_required(VERSION 3.16)\nproject(component ") +
            languages(plugin.sources.sources) + ")\nfind_package(Tandem REQUIRED COMPONENTS " + plugin.model +
            ")\n" + compile_options(plugin) + "set(CMAKE_LIBRARY_OUTPUT_DIRECTORY " +
            text::quote_cmake((build / "made").string()) + ")\ntandem_add_" + plugin.model + "_component(" +
            plugin.name + "\n  FOLDER " + text::quote_cmake(fs::absolute(options.folder).string()) +
-           cmake_argument(rtm ? "CANDIDATES" : "SOURCES", absolute_names(plugin.sources.sources)) +
+           cmake_argument("CANDIDATES", absolute_names(plugin.sources.sources)) +
            (rtm ? cmake_argument("MORE_IDL", absolute_names(plugin.includes.idl_files)) : "") +
            cmake_argument("INCLUDE_DIRS", absolute_names(include_dirs(plugin, options))) +
            cmake_argument("DEFINITIONS", definitions) + libraries(plugin, options) +
@@ -139,6 +144,11 @@ std::string cmake_project(const Plugin& plugin, const PluginBuildOptions& option
            cmake_argument("PKG_CONFIG_IF_FOUND", {modules.begin(), modules.end()}) +
            cmake_argument("FORWARDS", {forwards.string()}) +
            fmt::format("\n  CXX_STANDARD {})\n", standard_of(plugin, options));
+}
+
+std::vector<fs::path> checkout_files(const fs::path& folder) {
+    const auto checkout = find_checkout(folder);
+    return checkout.empty() ? std::vector<fs::path>{} : list_files_below(checkout);
 }
 
 // Returns the advice that follows the first error of a failed step.
@@ -150,7 +160,7 @@ std::string advice(const std::string& error, const Plugin& plugin, const PluginB
     if (text.find("--source FILE") != std::string::npos) {
         // Files that were left out may define a function that no known library defines. --source replaces the sources
         // found: it must name these, too.
-        const auto definitions = find_definitions(find_checkout(folder), undefined_symbol(error));
+        const auto definitions = find_definitions(checkout_files(folder), undefined_symbol(error));
         if (definitions.size() == 1) {
             text = "another source file of this repository defines it: use";
             for (const auto& file : plugin.sources.sources) text += " --source " + file.filename().string();
@@ -251,7 +261,43 @@ bool add_cv_h(const std::string& output, Plugin& plugin) {
     return true;
 }
 
-// Configures and compiles in the folder `build`. Repeats both when it has found missing headers.
+// Adds declarations and standard headers that the sources lack. Returns whether it added one, and prints notes.
+bool add_names(const std::string& output, std::map<std::string, std::string>& names) {
+    bool added = false;
+    for (const auto& [name, declaration] : missing_names(output)) {
+        if (!names.emplace(name, declaration).second) continue;
+        print_note("tandem: {} is missing; adding: {}\n", name, declaration);
+        added = true;
+    }
+    return added;
+}
+
+// Adds the only one of the files that defines the symbol. Returns whether it did, and prints a note.
+bool add_source(const std::vector<fs::path>& files, const std::string& symbol, Plugin& plugin) {
+    const auto found = find_definitions(files, symbol);
+    auto& sources = plugin.sources.sources;
+    if (found.size() != 1 || std::find(sources.begin(), sources.end(), found[0]) != sources.end() ||
+        defines_function(read_text(found[0]), plugin.entry_function))
+        return false;
+    require_cmake_path(found[0]);
+    sources.push_back(found[0]);
+    print_note("tandem: {} is undefined; also compiling {}\n", symbol,
+               found[0].lexically_proximate(fs::current_path()).string());
+    return true;
+}
+
+// Adds sources that define missing functions: those of the folder that its project file does not list, or else one
+// of the checkout, whose search reads all files.
+bool add_sources(const std::string& output, const PluginBuildOptions& options, Plugin& plugin) {
+    if (!options.sources.sources.empty() || !options.sources.excluded.empty()) return false;
+    const auto symbols = undefined_symbols(output);
+    bool added = false;
+    for (const auto& symbol : symbols) added |= add_source(plugin.sources.left_out, symbol, plugin);
+    return added ||
+           (!symbols.empty() && add_source(checkout_files(options.folder), *symbols.begin(), plugin));
+}
+
+// Configures and compiles in the folder `build`. Repeats both when it has found what was missing.
 void compile(Plugin& plugin, const PluginBuildOptions& options, const fs::path& build) {
     const std::string bin = (build / "bin").string();
     for (;;) {
@@ -259,6 +305,9 @@ void compile(Plugin& plugin, const PluginBuildOptions& options, const fs::path& 
                                         plugin.neighbours);
         for (const auto& idl : plugin.includes.idl_files) require_cmake_path(idl); // from any sub-folder
         const auto forwards = write_forwards(plugin.includes.forwards, build / "forwards");
+        std::string declarations;
+        for (const auto& [name, declaration] : plugin.missing_names) declarations += declaration + "\n";
+        write_file(forwards / names_header, declarations);
         write_file(build / "CMakeLists.txt", cmake_project(plugin, options, build, forwards));
         // Two steps, each with a separate time limit and message. CMAKE_HAVE_LIBC_PTHREAD saves CMake a
         // test program: glibc has threads in libc since 2.34.
@@ -273,7 +322,8 @@ void compile(Plugin& plugin, const PluginBuildOptions& options, const fs::path& 
             run_cmake({"cmake", "--build", bin, "--parallel", processors}, options.timeout_s, plugin.name);
         if (!output) return;
         if (!add_neighbours(*output, options.folder, plugin.neighbours) &&
-            !add_installed(*output, plugin.installed) && !add_cv_h(*output, plugin))
+            !add_installed(*output, plugin.installed) && !add_cv_h(*output, plugin) &&
+            !add_names(*output, plugin.missing_names) && !add_sources(*output, options, plugin))
             fail(*output, plugin, options, "does not compile");
     }
 }
@@ -352,9 +402,15 @@ fs::path build_plugin(const std::string& model, const std::string& name, const E
     const fs::path output =
         fs::absolute(options.output.empty() ? default_folder : options.output).lexically_normal();
     require_plain_names(options, output);
-    Plugin plugin{model, name, select_sources(options.folder, entry_point, options.sources, {name, projects}),
-                  {},    {},   {},
-                  {},    {}};
+    Plugin plugin{model,
+                  name,
+                  entry_point.function,
+                  select_sources(options.folder, entry_point, options.sources, {name, projects}),
+                  {},
+                  {},
+                  {},
+                  {},
+                  {}};
     plugin.definitions = plugin.sources.target.sources.empty() ? read_cmake_lists(options.folder).definitions
                                                                : plugin.sources.target.definitions;
     plugin.problem = projects.problem();

@@ -4,6 +4,7 @@
 #include "apps/tandem/build/first_error.hpp"
 #include "apps/tandem/build/folder/checkout.hpp"
 #include "apps/tandem/build/folder/source_text.hpp"
+#include "apps/tandem/build/missing_names.hpp"
 #include "apps/tandem/build/packages/header_packages.hpp"
 #include "apps/tandem/build/packages/installed_library.hpp"
 #include "apps/tandem/build/packages/symbol_libraries.hpp"
@@ -72,14 +73,6 @@ std::vector<std::string> macros_that_avoid(const std::string& error) {
     const auto number = static_cast<std::size_t>(std::stoul(found[2]));
     if (number == 0 || number > lines.size()) return {};
     return names_of_branches(lines, number - 1);
-}
-
-// Returns the text between two others; "" if they are missing.
-std::string between(const std::string& text, const std::string& before, const std::string& after) {
-    const auto begin = text.find(before);
-    if (begin == std::string::npos) return "";
-    const auto end = text.find(after, begin + before.size());
-    return end == std::string::npos ? "" : text.substr(begin + before.size(), end - begin - before.size());
 }
 
 bool is_installed(std::string_view package, const BuildFacts& facts) {
@@ -166,33 +159,6 @@ std::string for_module(const std::string& module, const BuildFacts& facts) {
     return ""; // the message says what to do
 }
 
-// Returns the name that the compiler does not know; "" if this is a different error.
-std::string unknown_name(const std::string& error) {
-    // g++ quotes names with these quotes in a UTF-8 locale, otherwise with apostrophes.
-    for (const auto& [open, close] : {std::pair{"\u2018", "\u2019"}, std::pair{"'", "'"}}) {
-        auto name = between(error, std::string("error: ") + open, close);
-        if (!name.empty() && (error.find(" was not declared") != std::string::npos ||
-                              error.find(" does not name a type") != std::string::npos ||
-                              error.find(" has not been declared") != std::string::npos))
-            return name;
-    }
-    return "";
-}
-
-// Returns advice to define a name of Windows headers.
-std::string for_name(const std::string& name) {
-    static const std::map<std::string, const char*> names{{"BOOL", "int"},
-                                                          {"BYTE", "'unsigned char'"},
-                                                          {"WORD", "'unsigned short'"},
-                                                          {"DWORD", "'unsigned int'"},
-                                                          {"UINT", "'unsigned int'"},
-                                                          {"TRUE", "1"},
-                                                          {"FALSE", "0"}};
-    const auto known = names.find(name);
-    if (known == names.end()) return "";
-    return name + " is defined by Windows headers; define it with -D " + name + "=" + known->second;
-}
-
 } // namespace
 
 std::string find_remedy(const std::string& error, const BuildFacts& facts) {
@@ -207,15 +173,15 @@ std::string find_remedy(const std::string& error, const BuildFacts& facts) {
     for (const auto& macro : macros_that_avoid(error))
         definitions += (definitions.empty() ? "-D " : ", or -D ") + macro;
     if (!definitions.empty()) return definitions;
-    if (auto text = for_name(unknown_name(error)); !text.empty()) return text;
+    if (const auto name = unknown_name(error); is_windows_name(name))
+        return name + " belongs to Windows: this source cannot be built on Linux";
+    if (error.find("std::exception::exception(const char") != std::string::npos)
+        return "only Visual C++ has std::exception with a text: throw std::runtime_error";
     return "";
 }
 
-std::string undefined_symbol(const std::string& error) {
-    return between(error, "undefined reference to `", "'");
-}
-
 std::string dropped_by_opencv(const std::string& error) {
+    if (error.find("cv::Mat::Mat(IplImage*") != std::string::npos) return "cv::Mat(IplImage*)";
     auto name = unknown_name(error);
     for (const char* prefix : {"cv", "Cv", "CV_", "Ipl", "IPL_"})
         if (name.rfind(prefix, 0) == 0 && name.find(':') == std::string::npos) return name;

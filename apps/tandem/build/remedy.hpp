@@ -18,9 +18,6 @@ struct BuildFacts {
 /// component with the missing header or library; "" if there is none. Advises nothing that the build has used.
 std::string find_remedy(const std::string& error, const BuildFacts& facts);
 
-/// Returns the name in an "undefined reference" error of the linker; "" for other errors.
-std::string undefined_symbol(const std::string& error);
-
 /// Returns the name of OpenCV's C API that the compiler does not know; "" for errors about other names.
 std::string dropped_by_opencv(const std::string& error);
 

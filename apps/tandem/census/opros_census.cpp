@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/build/folder/source_text.hpp"
 #include "apps/tandem/census/candidate.hpp"
+#include "apps/tandem/opros/component_profiles.hpp"
 #include "apps/tandem/opros/probe_tasks.hpp"
 #include "apps/tandem/output/print.hpp"
 #include "host/opros/engine/profile/component_profile.hpp"
 #include "host/opros/engine/profile/profile_kind.hpp"
 
 #include <algorithm>
+#include <map>
+#include <optional>
 #include <pugixml.hpp>
 #include <sstream>
 
@@ -15,38 +18,84 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Returns nothing for other files.
-std::optional<Candidate> read_candidate(const fs::path& file, const fs::path& folder) {
+using Profile = std::optional<engine::ComponentProfile>;
+
+// Returns nothing for other files. `profile`: what the file contains, if it can be read.
+std::optional<Candidate> read_candidate(const fs::path& file, const fs::path& folder, Profile& profile) {
     // Other XML files may be damaged as they like.
     if (read_text(file).find("component_profile") == std::string::npos) return std::nullopt;
     try {
         if (engine::find_profile_kind(file) != engine::ProfileKind::component) return std::nullopt;
-        return Candidate{engine::read_component_profile(file).name, folder, file};
+        profile = engine::read_component_profile(file);
+        return Candidate{profile->name, folder, file};
     } catch (const engine::SetupError& error) {
         return Candidate{file.stem().string(), folder, file, error.what()};
     }
 }
 
-bool has_source(const fs::path& folder) {
-    const auto files = list_files_below(folder);
+bool contains_source(const std::vector<fs::path>& files) {
     return std::any_of(files.begin(), files.end(), [](const auto& file) { return is_source(file); });
 }
 
-std::vector<Candidate> find_opros(const fs::path& top, std::size_t& without_source) {
-    std::vector<Candidate> found;
-    for (const auto& file : list_files_below(top)) {
-        if (!is_xml(file)) continue;
+// Folders of device libraries may have the profile of the component that uses them.
+bool contains_component(const std::vector<fs::path>& files) {
+    return std::any_of(files.begin(), files.end(), [](const auto& file) {
+        return is_source(file) && read_text(file).find("getComponent") != std::string::npos;
+    });
+}
+
+// Returns the folder of the component whose profile belongs to `folder`. Workspaces have one folder with the profiles of
+// all components, whose folders have their names.
+fs::path component_folder(const fs::path& folder, const std::string& name) {
+    if (contains_source(list_files(folder)) || contains_source(list_files(folder / "src"))) return folder;
+    std::vector<fs::path> entries;
+    for (const auto& file : list_files_below(folder))
+        if (is_source(file) && defines_function(read_text(file), "getComponent")) entries.push_back(file);
+    if (entries.size() < 2) return folder;
+    for (const auto& entry : entries)
+        for (auto at = entry.parent_path(); at != folder; at = at.parent_path())
+            if (at.filename() == name) return at;
+    return folder;
+}
+
+/// Finds the components of a folder. Several copies of a profile are one component.
+class Finder {
+  public:
+    explicit Finder(std::size_t& without_source) : without_source_(without_source) {}
+
+    void add(const fs::path& file) {
         const auto parent = file.parent_path();
         const auto place = parent.filename();
-        const bool is_beside = place == "profile" || place == "profiles";
-        auto candidate = read_candidate(file, is_beside ? parent.parent_path() : parent);
-        if (!candidate) continue;
-        if (has_source(candidate->folder))
-            found.push_back(std::move(*candidate));
-        else
-            ++without_source;
+        Profile profile;
+        auto candidate = read_candidate(
+            file, place == "profile" || place == "profiles" ? parent.parent_path() : parent, profile);
+        if (!candidate) return;
+        candidate->folder = component_folder(candidate->folder, candidate->name);
+        if (!contains_component(list_files_below(candidate->folder))) {
+            ++without_source_;
+            return;
+        }
+        auto& known = profiles_[candidate->folder];
+        if (profile && std::any_of(known.begin(), known.end(), [&](const auto& other) {
+                return find_difference(other, *profile).empty();
+            }))
+            return;
+        if (profile) known.push_back(std::move(*profile));
+        found.push_back(std::move(*candidate));
     }
-    return found;
+
+    std::vector<Candidate> found;
+
+  private:
+    std::map<fs::path, std::vector<engine::ComponentProfile>> profiles_; ///< by the component's folder
+    std::size_t& without_source_;
+};
+
+std::vector<Candidate> find_opros(const fs::path& top, std::size_t& without_source) {
+    Finder finder(without_source);
+    for (const auto& file : list_files_below(top))
+        if (is_xml(file)) finder.add(file);
+    return std::move(finder.found);
 }
 
 std::string application_with(const std::string& name, const std::string& profile) {

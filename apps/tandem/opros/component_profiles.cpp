@@ -2,6 +2,7 @@
 #include "apps/tandem/opros/component_profiles.hpp"
 
 #include "apps/tandem/build/folder/source_text.hpp"
+#include "apps/tandem/output/print_note.hpp"
 #include "host/opros/engine/profile/profile_kind.hpp"
 
 #include <algorithm>
@@ -55,17 +56,6 @@ std::vector<Aspect> aspects_of(const engine::ComponentProfile& profile) {
             {"ports", ports}};
 }
 
-// Returns the first part in which the two differ; empty if they are equal. Folders contain copies of a profile.
-std::string difference(const engine::ComponentProfile& one, const engine::ComponentProfile& other) {
-    const auto ones = aspects_of(one), others = aspects_of(other);
-    for (std::size_t i = 0; i < ones.size(); ++i)
-        if (ones[i].value != others[i].value)
-            return ones[i].is_short
-                       ? fmt::format("{}: {} and {}", ones[i].name, ones[i].value, others[i].value)
-                       : ones[i].name;
-    return "";
-}
-
 bool is_source_folder(const fs::path& folder) {
     const auto name = to_lower(folder.filename().string());
     return name == "src" || name == "source" || name == "sources";
@@ -94,12 +84,22 @@ void remove_copies(Profiles& profiles) {
     Profiles distinct;
     for (auto& profile : profiles)
         if (std::none_of(distinct.begin(), distinct.end(),
-                         [&](const auto& other) { return difference(other, profile).empty(); }))
+                         [&](const auto& other) { return find_difference(other, profile).empty(); }))
             distinct.push_back(std::move(profile));
     profiles = std::move(distinct);
 }
 
 } // namespace
+
+std::string find_difference(const engine::ComponentProfile& one, const engine::ComponentProfile& other) {
+    const auto ones = aspects_of(one), others = aspects_of(other);
+    for (std::size_t i = 0; i < ones.size(); ++i)
+        if (ones[i].value != others[i].value)
+            return ones[i].is_short
+                       ? fmt::format("{}: {} and {}", ones[i].name, ones[i].value, others[i].value)
+                       : ones[i].name;
+    return "";
+}
 
 engine::ComponentProfile select_component_profile(const fs::path& folder, const std::string& profile) {
     if (!profile.empty())
@@ -116,8 +116,15 @@ engine::ComponentProfile select_component_profile(const fs::path& folder, const 
     std::string names;
     for (const auto& each : all)
         names += (names.empty() ? "" : ", ") + each.location.file.lexically_proximate(folder).string();
+    const auto& first = all.front();
+    if (std::all_of(all.begin(), all.end(),
+                    [&](const auto& each) { return each.library_name == first.library_name; })) {
+        print_note("tandem: {}, of one library, differ in {}; using the first\n", names,
+                   find_difference(first, all[1]));
+        return first;
+    }
     throw std::runtime_error(folder.string() + " has several component profiles: " + names +
-                             "; the first two differ in " + difference(all[0], all[1]) +
+                             "; the first two differ in " + find_difference(first, all[1]) +
                              "; choose one with --profile FILE");
 }
 

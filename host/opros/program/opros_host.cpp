@@ -20,6 +20,7 @@
 #include <fmt/format.h>
 
 #include <csignal>
+#include <cstdio>
 #include <iostream>
 #include <string>
 
@@ -105,6 +106,7 @@ int main(int argc, char** argv) {
     tandem::crash::install_crash_report("opros_host");
     tandem::log::hold_standard_streams();
     tandem::log::outlive_output_failures();
+    std::setvbuf(stdout, nullptr, _IOLBF, 0); // output of components precedes the error that it explains
     tandem::log::open("opros_host");
     tandem::process::set_log_flush(tandem::log::flush);
     int exit_code = 0;

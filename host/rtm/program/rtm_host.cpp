@@ -188,6 +188,7 @@ int main(int argc, char** argv) {
     tandem::plugin::serve_probe(argc, argv, {{RTC::module_probe_task, RTC::run_module_probe}});
     tandem::log::hold_standard_streams();
     tandem::log::outlive_output_failures();
+    std::setvbuf(stdout, nullptr, _IOLBF, 0); // output of components precedes the error that it explains
     tandem::log::open("rtm_host");
     tandem::process::set_log_flush(flush_logs);
     // Installed before components are created, so that an early signal also ends the host in order.

@@ -3,6 +3,7 @@
 #include "apps/tandem/build/folder/checkout.hpp"
 #include "apps/tandem/build/folder/cmake_lists.hpp"
 #include "apps/tandem/build/folder/project_files.hpp"
+#include "apps/tandem/build/folder/source_text.hpp"
 #include "apps/tandem/build/include_scan.hpp"
 #include "apps/tandem/build/plain_path.hpp"
 #include "apps/tandem/build/remedy.hpp"
@@ -190,9 +191,9 @@ TEST_CASE("a header is searched in the whole checkout by the longest matching pa
     CHECK(found("Archive.h").empty());
     folder.write("lib/Port.cpp", "namespace robot {\nvoid addPort(const char* name) {\n}\n}\n");
     folder.write("lib/Port.h", "namespace robot { void addPort(const char* name); }\n");
-    CHECK(find_definitions(checkout, "robot::addPort(char const*)") ==
+    CHECK(find_definitions(list_files_below(checkout), "robot::addPort(char const*)") ==
           std::vector<fs::path>{checkout / "lib/Port.cpp"});
-    CHECK(find_definitions(checkout, "robot::removePort(char const*)").empty());
+    CHECK(find_definitions(list_files_below(checkout), "robot::removePort(char const*)").empty());
     // The compiler looks for a name with "../" beside the folder that it searches.
     const auto forwards = write_forwards(
         {{"../One/Device.h", "/there/Device.h"}, {"../../../../../x.h", "/x"}}, folder.path() / "forwards");
@@ -281,14 +282,17 @@ TEST_CASE("an error about a header or a library is followed by a remedy") {
     CHECK(remedy(header + ":5:2: error: #error not with SSE").empty());
     CHECK(remedy(header + ":11:2: error: #error neither") == "-D FIXED, or -D FAST");
     CHECK(remedy(header + ":14:2: error: #error no SIZE") == "-D SIZE");
-    CHECK(remedy("Old.h:1:2: error: 'DWORD' does not name a type") ==
-          "DWORD is defined by Windows headers; define it with -D DWORD='unsigned int'");
-    CHECK(remedy("Old.h:1:2: error: \u2018TRUE\u2019 was not declared in this scope; did you mean "
-                 "\u2018true\u2019?") == "TRUE is defined by Windows headers; define it with -D TRUE=1");
+    CHECK(remedy("Old.cpp:1:2: error: 'GetTickCount' was not declared in this scope") ==
+          "GetTickCount belongs to Windows: this source cannot be built on Linux");
+    CHECK(remedy("Old.cpp:1:2: error: no matching function for call to 'std::exception::exception(const char "
+                 "[5])'") == "only Visual C++ has std::exception with a text: throw std::runtime_error");
     CHECK(remedy("Old.h:1:2: error: 'MINE' does not name a type").empty());
     CHECK(remedy("Old.cpp:9:3: error: expected ';' before '}' token").empty());
     CHECK(dropped_by_opencv("a.cpp:1:2: error: \u2018cvHaarDetectObjects\u2019 was not declared") ==
           "cvHaarDetectObjects");
+    CHECK(dropped_by_opencv(
+              "a.cpp:1:2: error: no matching function for call to \u2018cv::Mat::Mat(IplImage*&)\u2019") ==
+          "cv::Mat(IplImage*)");
     CHECK(dropped_by_opencv("a.cpp:1:2: error: \u2018helper\u2019 was not declared").empty());
 }
 

@@ -13,6 +13,7 @@
 #include <device/InertiaMeasurementUnit.h>
 #include <device/Joystick.h>
 #include <device/LaserScanner.h>
+#include <device/MobileController.h>
 #include <device/MultiCamera.h>
 #include <device/PositionSensor.h>
 #include <device/ServoActuator.h>
@@ -142,6 +143,20 @@ TEST_CASE("a base moves as it is driven") {
     CHECK(here.x == Approx(7));
 }
 
+TEST_CASE("a base of OPRoS v2 moves by a distance and stops") {
+    DeviceUnderTest<MobileController> base("MobileControllerApi");
+    OPRoS::MobilePositionData here;
+    bool running = false;
+    REQUIRE(base->MoveBase(-1, 1) == API_SUCCESS);
+    REQUIRE(base->IsBaseRunning(running) == API_SUCCESS);
+    CHECK(running);
+    for (int i = 0; i < 3; ++i) REQUIRE(base->GetPosition(here) == API_SUCCESS);
+    CHECK(here.x == Approx(-1));
+    REQUIRE(base->IsBaseRunning(running) == API_SUCCESS);
+    CHECK_FALSE(running);
+    CHECK(base->MoveBase(1, 0) == API_ERROR);
+}
+
 TEST_CASE("joints reach their positions in the time given") {
     DeviceUnderTest<ServoActuator> servo("ServoActuatorApi");
     double position = -1, velocity = -1;
@@ -213,6 +228,10 @@ TEST_CASE("cameras fill a picture of the configured size and nothing behind it")
     CHECK(picture[1] == picture[0] + 1);
     CHECK(picture[4] == picture[0]);
     CHECK(picture[8] == 255);
+    Property parameters;
+    REQUIRE(cameras->GetParameter(parameters) == API_SUCCESS); // also those that the profile lacks
+    CHECK(parameters.GetValue("Width0") == "320");
+    CHECK(parameters.GetValue("Width1") == "4");
     CHECK(cameras->GetImage(2, picture.data()) == API_ERROR);
 }
 

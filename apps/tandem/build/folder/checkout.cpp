@@ -31,6 +31,16 @@ Paths distinct(const Paths& files) {
     return found;
 }
 
+// Returns the sources that define members of the class or use its static ones.
+Paths with_members_of(const Paths& files, const std::string& name) {
+    const std::regex member("\\b" + name.substr(name.rfind(':') + 1) + "::");
+    Paths found;
+    for (const auto& file : files)
+        if (is_source(file) && std::regex_search(strip_comments(read_text(file)), member))
+            found.push_back(file);
+    return distinct(found);
+}
+
 } // namespace
 
 fs::path find_checkout(const fs::path& folder) {
@@ -74,15 +84,22 @@ Paths find_in_checkout(const fs::path& checkout, const std::string& name) {
     return {};
 }
 
-Paths find_definitions(const fs::path& checkout, const std::string& symbol) {
-    const std::string qualified = symbol.substr(0, symbol.find('('));
-    const auto colon = qualified.rfind(':');
-    const std::string name = colon == std::string::npos ? qualified : qualified.substr(colon + 1);
-    Paths found;
-    if (checkout.empty() || name.empty()) return found;
-    for (const auto& file : list_files_below(checkout))
-        if (is_source(file) && defines_function(read_text(file), name)) found.push_back(file);
-    return distinct(found);
+Paths find_definitions(const Paths& files, const std::string& symbol) {
+    // The compiler emits it with the members of the class.
+    if (const std::string of_class = "vtable for "; symbol.rfind(of_class, 0) == 0)
+        return with_members_of(files, symbol.substr(of_class.size()));
+    static const std::regex last_names("((?:\\w+::)?~?(\\w+))$");
+    std::smatch names;
+    const auto plain = symbol.substr(0, symbol.find('('));
+    if (!std::regex_search(plain, names, last_names)) return {};
+    // Members have their class before the name; functions do not have their namespace.
+    for (const auto& name : {names[1].str(), names[2].str()}) {
+        Paths found;
+        for (const auto& file : files)
+            if (is_source(file) && defines_function(read_text(file), name)) found.push_back(file);
+        if (!found.empty()) return distinct(found);
+    }
+    return {};
 }
 
 std::vector<std::string> missing_submodules(const fs::path& checkout) {

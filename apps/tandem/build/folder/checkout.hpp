@@ -23,9 +23,9 @@ bool has_upstream_api(const std::filesystem::path& folder);
 std::vector<std::filesystem::path> find_in_checkout(const std::filesystem::path& checkout,
                                                     const std::string& name);
 
-/// Returns the sources in the checkout that define a function. `symbol`: its name as the linker prints it,
-/// with namespaces and parameters.
-std::vector<std::filesystem::path> find_definitions(const std::filesystem::path& checkout,
+/// Returns the sources among the files that define a function, those with equal content once. `symbol`: its name as
+/// the linker prints it, with namespaces and parameters.
+std::vector<std::filesystem::path> find_definitions(const std::vector<std::filesystem::path>& files,
                                                     const std::string& symbol);
 
 /// Returns the folders of the checkout's git submodules that are empty or missing, as .gitmodules names them.

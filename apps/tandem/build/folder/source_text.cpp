@@ -61,11 +61,13 @@ std::string strip_comments(std::string text) {
 }
 
 bool defines_function(const std::string& source, const std::string& function) {
+    if (source.find(function) == std::string::npos) return false;
     const std::string text = strip_comments(source);
+    const bool is_member = function.find(':') != std::string::npos;
     bool found = false;
     for (std::size_t at = 0; !found && (at = text.find(function, at)) != std::string::npos;
          at += function.size()) {
-        if (at > 0 && is_word(text[at - 1])) continue;
+        if (at > 0 && (is_word(text[at - 1]) || (text[at - 1] == ':' && !is_member))) continue;
         const auto open = text.find_first_not_of(" \t\r\n", at + function.size());
         if (open == std::string::npos || text[open] != '(') continue;
         const auto close = text.find(')', open);

@@ -14,8 +14,8 @@ std::string read_text(const std::filesystem::path& file);
 /// Returns the text of a C++ source with comments replaced by blanks. Keeps line numbers.
 std::string strip_comments(std::string text);
 
-/// Returns whether the source defines the function: its name, parameters, and a body. Returns false for
-/// sources with a main(), because they are separate programs.
+/// Returns whether the source defines the function, f, or the member, C::f: its name, parameters, and a body. Returns
+/// false for sources with a main(), because they are separate programs.
 bool defines_function(const std::string& source, const std::string& function);
 
 /// Returns whether the source defines main(): it is a separate program.

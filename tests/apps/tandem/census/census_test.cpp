@@ -41,7 +41,7 @@ void write_rtc(const Folder& folder, const std::string& name, const std::string&
 void write_opros(const Folder& folder, const std::string& name, const std::string& body,
                  const std::string& period = "10") {
     folder.write("shelf/" + name + "/" + name + ".cpp",
-                 fmt::format("#include <Component.h>\n#include <csignal>\n"
+                 fmt::format("#include <Component.h>\n#include <csignal>\n#include <cstdio>\n"
                              "struct {0} : Component {{\n"
                              "  ReturnType onInitialize() override {{ return OPROS_SUCCESS; }}\n"
                              "  ReturnType onStart() override {{ return OPROS_SUCCESS; }}\n"
@@ -128,6 +128,8 @@ TEST_CASE(
     write_opros(folder, "Crashing", "std::raise(SIGSEGV);");
     folder.write("shelf/bought/Bought.xml", "<component_profile><name>Bought</name></component_profile>");
     folder.write("shelf/data.xml", "<calibration/>");
+    folder.write("shelf/device/Device.xml", "<component_profile><name>Bought</name></component_profile>");
+    folder.write("shelf/device/device.cpp", "extern \"C\" void* GetAPI() { return nullptr; }\n");
     const auto result = tandem_program({"opros", "census", folder.path() / "shelf", "--seconds", "1"});
     INFO(result.output << result.errors);
     CHECK(result.exit_code == 2);
@@ -135,10 +137,46 @@ TEST_CASE(
         result.output,
         Catch::StartsWith("COMPONENT") && Catch::Contains("BUILT  LOADS  CYCLES  FIRST ERROR") &&
             Catch::EndsWith(
-                "2 components: 2 built, 2 load, 1 run; 1 component profile has no source beside it\n"));
+                "2 components: 2 built, 2 load, 1 run; 2 component profiles have no source beside them\n"));
     const auto lines = std::count(result.output.begin(), result.output.end(), '\n');
     CHECK(lines == 4);
     CHECK_THAT(result.output, Catch::Contains("onExecute"));
+}
+
+TEST_CASE("the error of a component has the line that the component printed before") {
+    const Folder folder;
+    write_opros(folder, "Lost", "std::puts(\"no map in /data\"); throw 1;");
+    const auto shelf = folder.path() / "shelf";
+    const auto census = tandem_program({"opros", "census", shelf, "--seconds", "1", "--json"}).json();
+    CHECK_THAT(error_of(census, "Lost"),
+               Catch::Contains("onExecute") && Catch::EndsWith("(line before: no map in /data)"));
+}
+
+TEST_CASE("copies of a profile are one component of a census, also those in a workspace's common folder") {
+    const Folder folder;
+    write_opros(folder, "One", "");
+    write_opros(folder, "Two", "");
+    const auto shelf = folder.path() / "shelf";
+    fs::create_directories(shelf / "profiles");
+    for (const std::string name : {"One", "Two"}) {
+        const auto profile = shelf / name / "profile" / (name + ".xml");
+        fs::copy_file(profile, shelf / "profiles" / profile.filename());
+        fs::copy_file(profile, shelf / name / profile.filename());
+    }
+    // A profile that differs is tried, too.
+    fs::create_directories(shelf / "Two/profiles");
+    folder.write("shelf/Two/profiles/Other.xml",
+                 "<component_profile><name>Other</name><execution_environment><library_name>Other.dll"
+                 "</library_name></execution_environment></component_profile>");
+    const auto result = tandem_program({"opros", "census", shelf, "--seconds", "0.2", "--json"});
+    INFO(result.output << result.errors);
+    const auto census = result.json();
+    CHECK(census["found"] == 3);
+    CHECK(census["built"] == 3);
+    CHECK(row(census, "One")["folder"] == (shelf / "One").string());
+    CHECK(row(census, "Two")["folder"] == (shelf / "Two").string());
+    CHECK(row(census, "Other")["folder"] == (shelf / "Two").string());
+    CHECK(census["profiles_without_source"] == 0);
 }
 
 TEST_CASE("a census without components is an error, and one in which all run ends with exit code 0") {

@@ -1,42 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/apps/tandem/program.hpp"
+#include "tests/apps/tandem/opros/old_component.hpp"
 #include "tests/apps/tandem/shell.hpp"
-#include "tests/host/opros/engine/folder.hpp"
 
 #include <algorithm>
 
+using tandem::test::build;
+using tandem::test::old_component;
 using tandem::test::tandem_program;
 
 namespace {
 
 namespace fs = std::filesystem;
-
-tandem::test::Result build(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), {"opros", "build"});
-    return tandem_program(std::move(arguments));
-}
-
-// A component in the style of v1: exported with a definition only, IComponent, the profile in a folder of its
-// own.
-void old_component(const Folder& folder, const std::string& body) {
-    folder.write("neighbour/Gain.h", "inline double gain() { return 3; }\n");
-    folder.write("Old/Old.cpp",
-                 "#include <Component.h>\n#include <OPRoSTypes.h>\n#include <OutputDataPort.h>\n"
-                 "#include \"Gain.h\"\n#include \"Helper.h\"\n"
-                 "class Old : public Component {\n  OutputDataPort<double> out;\n public:\n"
-                 "  Old() { addPort(\"out\", &out); " +
-                     body +
-                     " }\n  virtual ReturnType onExecute() { out.push(gain() * helped()); return "
-                     "OPROS_SUCCESS; }\n};\n"
-                     "#ifdef MAKE_COMPONENT_DLL\nextern \"C\" {\n"
-                     "Component* getComponent() { return new Old; }\n"
-                     "void releaseComponent(Component* com) { delete com; }\n}\n#endif\n");
-    folder.write("Old/Helper.h", "double helped();\n");
-    folder.write("Old/src/Helper.cpp", "#include \"Helper.h\"\ndouble helped() { return 2; }\n");
-    folder.write("Old/mfc/Old.cpp", "#include <afxwin.h>\n");
-    folder.component("Old/profile/Old", "Old.dll");
-    folder.write("Old/profile/OldService.xml", "<service_port_type_profile/>");
-}
 
 std::string error_of(std::vector<std::string> arguments) { return build(std::move(arguments)).errors; }
 
@@ -230,37 +204,6 @@ TEST_CASE("a component of another platform is built from its makefile's list, wi
     CHECK(fs::exists(folder.path() / "Old/profile/Old.so"));
 }
 
-TEST_CASE("a header that exists once in the checkout is used, and options are suggested for several") {
-    const Folder folder;
-    old_component(folder, "");
-    fs::create_directories(folder.path() / ".git");
-    fs::rename(folder.path() / "Old/src/Helper.cpp", folder.path() / "Old/Helper.cpp");
-    folder.write("neighbour/Gain.h",
-                 "#include \"../Device/Device.h\"\ninline double gain() { return device(); }\n");
-    folder.write("Device_V1.0/Device.h", "inline double device() { return 3; }\n");
-    const auto built = build({folder.path() / "Old"});
-    INFO(built.output << built.errors);
-    REQUIRE(built.exit_code == 0);
-    CHECK_THAT(built.errors, Catch::Contains("tandem: Gain.h is not in ") &&
-                                 Catch::Contains("; using the file found elsewhere in this repository: ") &&
-                                 Catch::Contains("neighbour/Gain.h\n") &&
-                                 Catch::Contains("Device_V1.0/Device.h\n"));
-    CHECK(std::count(built.errors.begin(), built.errors.end(), '\n') == 2);
-    folder.write("neighbour/Gain.h", "double gain();\n");
-    folder.write("neighbour/Gain.cpp", "#include \"Gain.h\"\ndouble gain() { return 3; }\n");
-    const auto unlinked = build({folder.path() / "Old"}).errors;
-    const auto options = unlinked.find("--source Helper.cpp --source Old.cpp --source ");
-    INFO(unlinked);
-    REQUIRE(options != std::string::npos);
-    CHECK_THAT(unlinked, Catch::Contains("another source file of this repository defines it: use") &&
-                             Catch::Contains("neighbour/Gain.cpp (the compiler's output is above)"));
-    folder.write("other/Gain.h", "inline double gain() { return 4; }\n");
-    const auto top = fs::canonical(folder.path()).string();
-    CHECK_THAT(build({folder.path() / "Old"}).errors,
-               Catch::Contains("Gain.h: No such file or directory; -I " + top + "/neighbour, or -I " + top +
-                               "/other ("));
-}
-
 TEST_CASE("an impossible build is reported in one line with the profile's line, the package or the cause") {
     const Folder folder;
     const auto last_line = [&](std::vector<std::string> arguments) {
@@ -312,11 +255,33 @@ TEST_CASE("copies of a profile are one profile, and different profiles are named
     write_profile("One/One.xml", "One.dll");
     write_profile("One/profile/One.xml", "One.dll");
     CHECK_THAT(error_of({one}), Catch::Contains("no C++ source")); // so the profile was found
+    folder.write("One/profile/One.xml",
+                 "<component_profile><name>One</name><execution_environment><library_name>One.dll"
+                 "</library_name></execution_environment><execution_semantics><type>periodic"
+                 "</type><period>10</period></execution_semantics></component_profile>\n");
+    CHECK_THAT(error_of({one}), Catch::Contains("tandem: One.xml, profile/One.xml, of one library, differ in "
+                                                "execution; using the first\n") &&
+                                    Catch::Contains("no C++ source"));
     write_profile("One/profile/One.xml", "Other.dll");
     CHECK_THAT(
         error_of({one}),
         Catch::Contains("has several component profiles: One.xml, profile/One.xml; the first two differ in "
                         "<library_name>: One.dll and Other.dll; choose one with --profile FILE"));
+}
+
+TEST_CASE("a component of a project with only a program is built without the program's main()") {
+    const Folder folder;
+    old_component(folder, "");
+    const auto component = folder.path() / "Old";
+    folder.write("Old/main.cpp", "int not_in_the_plugin();\nint main() { return not_in_the_plugin(); }\n");
+    folder.write("Old/CMakeLists.txt", "cmake_minimum_required(VERSION 3.10)\nproject(Old CXX)\n"
+                                       "add_executable(OldProgram Old.cpp src/Helper.cpp main.cpp)\n");
+    const std::vector<std::string> arguments{component, "-I", folder.path() / "neighbour"};
+    const auto with_project = build(arguments);
+    INFO(with_project.output << with_project.errors);
+    CHECK(with_project.exit_code == 0);
+    fs::remove(component / "CMakeLists.txt");
+    CHECK(build(arguments).exit_code == 0);
 }
 
 TEST_CASE("the profile of a component may be in the folder above its sources") {
