@@ -35,7 +35,7 @@ void ExecutionContextBase::cycle() {
 bool ExecutionContextBase::hasWork() {
     const auto all = participants();
     for (auto& participant : *all)
-        if (participant->hasPendingTransition() || participant->state() != INACTIVE_STATE) return true;
+        if (!participant->isInactive()) return true;
     return false;
 }
 
