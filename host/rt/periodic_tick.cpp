@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rt/periodic_tick.hpp"
 
+#include "host/rt/cycle_lines.hpp"
 #include "shm/os/processor.hpp"
 
 #include <algorithm>
@@ -49,10 +50,10 @@ std::int64_t next_on_grid(std::int64_t now, std::int64_t period, std::int64_t ph
 }
 
 PeriodicTick::PeriodicTick(const TickOptions& options)
-    : period_(options.period.count()), phase_(options.phase.count()), aligned_(options.aligned),
-      polling_(options.spin, period_, options.rehearse),
-      slot_(options.name,
-            options.period.count() > 0 ? static_cast<std::uint64_t>(options.period.count()) : 1) {
+    : slot_(options.name,
+            options.period.count() > 0 ? static_cast<std::uint64_t>(options.period.count()) : 1),
+      period_(options.period.count()), aligned_(options.aligned), phase_(options.phase.count()),
+      polling_(options.spin, period_, options.rehearse) {
     if (period_ <= 0)
         throw std::invalid_argument("a periodic tick needs a period above 0 ns, got " +
                                     std::to_string(period_));
@@ -112,11 +113,16 @@ void PeriodicTick::note_lateness(std::int64_t lateness) {
     std::atomic_ref(slot_->lateness_ns_last).store(lateness, std::memory_order_relaxed);
     if (lateness > slot_->lateness_ns_max)
         std::atomic_ref(slot_->lateness_ns_max).store(lateness, std::memory_order_relaxed);
-    if (!interrupted()) count(slot_->lateness[lateness_octave(lateness)]);
+    if (slot_.is_public() && !interrupted()) count(slot_->lateness[lateness_octave(lateness)]);
 }
 
 void PeriodicTick::note_due(std::int64_t when) {
-    std::atomic_ref(slot_->due_ns).store(when, std::memory_order_relaxed);
+    if (slot_.is_public()) std::atomic_ref(slot_->due_ns).store(when, std::memory_order_relaxed);
+}
+
+void PeriodicTick::note_lines() const {
+    rt::note_lines(this, CycleLines::line);
+    rt::note_lines(slot_.operator->(), CycleLines::line);
 }
 
 void PeriodicTick::begin_cycle() { note_due(monotonic_ns() + period_); }
@@ -146,18 +152,16 @@ std::uint64_t PeriodicTick::wait() {
     return missed;
 }
 
-void PeriodicTick::tick_at(std::int64_t planned) {
-    const std::int64_t missed = started_ ? (planned - next_) / period_ - 1 : 0;
-    if (std::exchange(overran_, false) || missed > 0) count(slot_->overruns);
+void PeriodicTick::tick_at(const ArrivedTick& tick) {
+    const std::int64_t missed = started_ ? (tick.planned - next_) / period_ - 1 : 0;
+    if ((started_ && tick.overran) || missed > 0) count(slot_->overruns);
     if (missed > 0) count(slot_->skipped, static_cast<std::uint64_t>(missed));
     started_ = true;
-    next_ = planned;
-    note_lateness(monotonic_ns() - planned);
-    note_due(interrupted() ? 0 : planned + period_);
+    next_ = tick.planned;
+    note_lateness(tick.now - tick.planned);
+    note_due(interrupted() ? 0 : tick.planned + period_);
     if (!interrupted()) count(slot_->ticks);
 }
-
-void PeriodicTick::end_cycle() { overran_ = started_ && monotonic_ns() >= next_ + period_; }
 
 TickStats PeriodicTick::stats() const {
     const auto value = [](auto& counter) { return std::atomic_ref(counter).load(std::memory_order_relaxed); };

@@ -37,6 +37,8 @@ class PortBuffer final : public CdrBufferBase, public InPlaceBuffer {
     /// In a rehearsal decodes the last message once more.
     BufferStatus readInPlace(ByteData& message, Unmarshal& reader, bool& read_in_place) override;
     std::size_t readable() const override;
+    /// Notes the lines that readable() uses (host/rt/cycle_lines.hpp). Does nothing unless the calling thread owns the end.
+    void note_lines() const;
     bool empty() const override { return readable() == 0; }
 
     // Access to messages without moving, and moves without access. They exclude both threads.
