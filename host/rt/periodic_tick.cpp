@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rt/periodic_tick.hpp"
 
+#include "host/rt/cycle_lines.hpp"
 #include "shm/os/processor.hpp"
 
 #include <algorithm>
@@ -49,10 +50,10 @@ std::int64_t next_on_grid(std::int64_t now, std::int64_t period, std::int64_t ph
 }
 
 PeriodicTick::PeriodicTick(const TickOptions& options)
-    : period_(options.period.count()), phase_(options.phase.count()), aligned_(options.aligned),
-      polling_(options.spin, period_, options.rehearse),
-      slot_(options.name,
-            options.period.count() > 0 ? static_cast<std::uint64_t>(options.period.count()) : 1) {
+    : slot_(options.name,
+            options.period.count() > 0 ? static_cast<std::uint64_t>(options.period.count()) : 1),
+      period_(options.period.count()), aligned_(options.aligned), phase_(options.phase.count()),
+      polling_(options.spin, period_, options.rehearse) {
     if (period_ <= 0)
         throw std::invalid_argument("a periodic tick needs a period above 0 ns, got " +
                                     std::to_string(period_));
@@ -113,19 +114,22 @@ void PeriodicTick::note_lateness(std::int64_t lateness) {
     std::atomic_ref(slot_->lateness_ns_last).store(lateness, std::memory_order_relaxed);
     if (lateness > slot_->lateness_ns_max)
         std::atomic_ref(slot_->lateness_ns_max).store(lateness, std::memory_order_relaxed);
-    if (!interrupted()) count(slot_->lateness[time_octave(lateness)]);
+    if (slot_.is_public() && !interrupted()) count(slot_->lateness[time_octave(lateness)]);
 }
 
 void PeriodicTick::note_due(std::int64_t when) {
-    std::atomic_ref(slot_->due_ns).store(when, std::memory_order_relaxed);
+    if (slot_.is_public()) std::atomic_ref(slot_->due_ns).store(when, std::memory_order_relaxed);
 }
 
-void PeriodicTick::note_execution(std::int64_t ended) {
-    if (began_ == 0) return;
-    const std::int64_t took = ended - std::exchange(began_, 0);
+void PeriodicTick::note_lines() const {
+    rt::note_lines(this, CycleLines::line);
+    rt::note_lines(slot_.operator->(), CycleLines::line);
+}
+
+void PeriodicTick::note_execution(std::int64_t took) {
     if (took > slot_->execution_ns_max)
         std::atomic_ref(slot_->execution_ns_max).store(took, std::memory_order_relaxed);
-    count(slot_->execution[time_octave(took)]);
+    if (slot_.is_public()) count(slot_->execution[time_octave(took)]);
 }
 
 void PeriodicTick::begin_cycle() {
@@ -149,7 +153,7 @@ std::uint64_t PeriodicTick::wait() {
         return 0;
     }
     const std::int64_t now = monotonic_ns();
-    note_execution(now);
+    if (began_ != 0) note_execution(now - std::exchange(began_, 0));
     std::uint64_t missed = 0;
     if (started_)
         missed = plan_next(now);
@@ -162,22 +166,16 @@ std::uint64_t PeriodicTick::wait() {
     return missed;
 }
 
-void PeriodicTick::tick_at(std::int64_t planned) {
-    const std::int64_t missed = started_ ? (planned - next_) / period_ - 1 : 0;
-    if (std::exchange(overran_, false) || missed > 0) count(slot_->overruns);
+void PeriodicTick::tick_at(const ArrivedTick& tick) {
+    const std::int64_t missed = started_ ? (tick.planned - next_) / period_ - 1 : 0;
+    if ((started_ && tick.overran) || missed > 0) count(slot_->overruns);
     if (missed > 0) count(slot_->skipped, static_cast<std::uint64_t>(missed));
     started_ = true;
-    next_ = planned;
-    began_ = monotonic_ns();
-    note_lateness(began_ - planned);
-    note_due(interrupted() ? 0 : planned + period_);
+    next_ = tick.planned;
+    if (tick.took > 0) note_execution(tick.took);
+    note_lateness(tick.now - tick.planned);
+    note_due(interrupted() ? 0 : tick.planned + period_);
     if (!interrupted()) count(slot_->ticks);
-}
-
-void PeriodicTick::end_cycle() {
-    const std::int64_t now = monotonic_ns();
-    note_execution(now);
-    overran_ = started_ && now >= next_ + period_;
 }
 
 TickStats PeriodicTick::stats() const {

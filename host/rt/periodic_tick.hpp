@@ -39,10 +39,17 @@ struct TickOptions {
     std::string name{};
 };
 
+/// A tick that another object has waited for. Times in ns of CLOCK_MONOTONIC.
+struct ArrivedTick {
+    std::int64_t planned, now;
+    bool overran = false;  ///< the cycle of the tick before ended after this one was due
+    std::int64_t took = 0; ///< duration of the cycle of the tick before; 0: there was none
+};
+
 /// Counters of a PeriodicTick since its construction.
 struct TickStats {
     std::uint64_t ticks;           ///< calls of wait() that ended with a tick
-    std::uint64_t overruns;        ///< ticks that were already due when wait() or end_cycle() was called
+    std::uint64_t overruns;        ///< ticks that were already due when the cycle before ended
     std::uint64_t skipped;         ///< periods without a tick, because the work before took too long
     std::int64_t lateness_ns_last; ///< from the planned time to the return of wait()
     std::int64_t lateness_ns_max;
@@ -60,18 +67,19 @@ class PeriodicTick {
     /// tick late by less than one period comes at once, and older ticks are skipped. The grid does not change. [tick-thread]
     std::uint64_t wait();
 
-    /// Counts a tick that another object has waited for, planned for this time of CLOCK_MONOTONIC in ns. [tick-thread]
-    void tick_at(std::int64_t planned);
-    /// Reports that the cycle has ended, which otherwise the next wait() does. Needed after tick_at(): if the next tick is
-    /// already due, it is an overrun. [tick-thread]
-    void end_cycle();
+    /// Counts a tick that another object has waited for. Reads no clock. [tick-thread]
+    void tick_at(const ArrivedTick& tick);
+
+    /// Reports the lines that tick_at() uses (cycle_lines.hpp). [tick-thread]
+    void note_lines() const;
 
     /// Reports that a cycle begins without wait(): the first cycle after rest(). [tick-thread]
     void begin_cycle();
     /// Reports that no tick is due until the next wait() or begin_cycle(). [tick-thread]
     void rest();
-    /// Returns the memory in which the thread's callbacks are published for readers outside the process.
-    crash::CallbackText& callback_text() const { return slot_->callback; }
+    /// Returns the memory in which the thread's callbacks are published for readers outside the process. NULL: there are
+    /// none, because the page has no slot for this tick.
+    crash::CallbackText* callback_text() const { return slot_.is_public() ? &slot_->callback : nullptr; }
 
     /// Makes the current and all later calls of wait() return at once without a tick. [any-thread]
     void interrupt() noexcept;
@@ -90,17 +98,18 @@ class PeriodicTick {
     std::int64_t poll_until_next(std::int64_t now);
     void note_lateness(std::int64_t lateness);
     void note_due(std::int64_t when);
-    void note_execution(std::int64_t ended);
+    void note_execution(std::int64_t took);
 
+    // First what tick_at() needs, in one cache line.
+    const OwnTickSlot slot_;
     const std::int64_t period_;
-    const std::int64_t phase_; // from grid_origin; all times in ns
-    const bool aligned_;
-    TickPolling polling_;
-    bool started_ = false, overran_ = false;
     std::int64_t next_ = 0;                     // planned time of the coming, then of the current tick
     std::int64_t began_ = 0;                    // when the current cycle did; 0: there is none
     std::atomic<std::uint32_t> interrupted_{0}; // a futex
-    const OwnTickSlot slot_;
+    bool started_ = false;
+    const bool aligned_;
+    const std::int64_t phase_; // from grid_origin; all times in ns
+    TickPolling polling_;
 };
 
 /// Returns CLOCK_MONOTONIC in ns. [any-thread]

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "host/rt/cycle_lines.hpp"
+#include "host/rt/periodic_tick.hpp"
 #include "host/rt/thread.hpp"
 
 #include <chrono>
@@ -32,10 +34,11 @@ class SharedTick : public std::enable_shared_from_this<SharedTick> {
   public:
     enum class Next : std::uint8_t { tick, rest };
     struct Work {
-        std::string name; ///< for the log
-        /// Runs a cycle whose tick was planned for this time of CLOCK_MONOTONIC, in ns. Returns whether the next one runs at
-        /// the next tick or only after wake().
-        std::function<Next(std::int64_t planned)> cycle;
+        /// Runs a cycle. Returns whether the next one runs at the next tick or only after wake().
+        std::function<Next(const ArrivedTick& tick)> cycle;
+        /// Is called as a Rehearsal (rehearsal.hpp) from time to time, and notes the lines that a cycle uses.
+        std::function<void()> rehearse;
+        std::string name;                                 ///< for the log
         std::function<void(const std::string& line)> log; ///< [any-thread]
     };
 
@@ -56,12 +59,14 @@ class SharedTick : public std::enable_shared_from_this<SharedTick> {
   private:
     friend struct TickThread;
     friend class TickThreads;
+    // First what each cycle needs. The members are guarded by the mutex of thread_, and thread_ by that of all threads.
+    bool rests_ = false, woken_ = false, left_ = false, overran_ = false;
+    std::int64_t took_ = 0; // duration of the last cycle
+    int slow_cycles_ = 0;   // in a row
     const Work work_;
-    std::shared_ptr<TickThread>
-        thread_; // the members below are guarded by its mutex, itself by that of all threads
+    CycleLines lines_;                              // used by the thread alone
     std::optional<SharedTickOptions> next_options_; // set in a cycle
-    bool rests_ = false, woken_ = false, left_ = false;
-    int slow_cycles_ = 0; // in a row
+    std::shared_ptr<TickThread> thread_;
 };
 
 /// Returns a token for one of the first 16 ticks of the process, which have separate threads; none: share a thread. The

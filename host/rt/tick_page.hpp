@@ -7,9 +7,12 @@
 #include "host/crash/callback_scope.hpp"
 #include "host/process/published/notices.hpp"
 
+#include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -48,18 +51,21 @@ class OwnTickSlot {
     OwnTickSlot(const OwnTickSlot&) = delete;
     OwnTickSlot& operator=(const OwnTickSlot&) = delete;
     TickSlot* operator->() const { return slot_; }
+    /// Returns whether other processes see the slot.
+    bool is_public() const { return private_ == nullptr; }
 
   private:
-    TickSlot private_{};
-    TickSlot* slot_;
+    TickSlot* slot_ = nullptr;
+    std::unique_ptr<TickSlot> private_;
     std::optional<process::OwnNotice> unseen_;
 };
 
 /// Returns the index of the class that a lateness or a duration falls into.
 constexpr std::size_t time_octave(std::int64_t ns) {
-    std::size_t octave = 0;
-    for (std::int64_t end = 64; ns >= end && octave + 1 < TickSlot::octaves; end *= 2) ++octave;
-    return octave;
+    constexpr unsigned first_bits = 6;
+    const auto bits =
+        static_cast<std::size_t>(std::bit_width(static_cast<std::uint64_t>(std::max<std::int64_t>(ns, 1))));
+    return std::clamp<std::size_t>(bits, first_bits, first_bits + TickSlot::octaves - 1) - first_bits;
 }
 
 /// Adds to a counter that only this thread writes.

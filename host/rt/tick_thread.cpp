@@ -3,6 +3,7 @@
 
 #include "host/process/start_thread.hpp"
 #include "host/rt/periodic_tick.hpp"
+#include "host/rt/rehearsal.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -15,6 +16,8 @@ constexpr std::int64_t ms = 1'000'000;
 // A cycle that takes longer than this part of the period, or than this time, delays others too much.
 constexpr std::int64_t share_part = 4, longest_share = ms;
 constexpr int slow_cycles_in_a_row = 3;
+// Each member notes the lines of its cycle anew after so many rounds.
+constexpr std::size_t rounds_per_note = 64;
 // A cycle hangs if it takes longer than the period, within these limits.
 constexpr std::int64_t shortest_hang = 20 * ms, longest_hang = 100 * ms;
 
@@ -102,21 +105,51 @@ void TickThread::run() {
 void TickThread::run_round(Lock& lock, bool all) {
     has_woken = false;
     waits = count_waits();
+    std::int64_t now = monotonic_ns();
+    rounds += all ? 1 : 0;
     for (next = 0; next < members.size();) {
         const auto tick = members[next++];
-        if (tick->rests_ ? tick->woken_ : all) run_cycle(lock, tick);
+        if (!(tick->rests_ ? tick->woken_ : all)) continue;
+        prefetch_following();
+        run_cycle(lock, tick, now);
     }
 }
 
-void TickThread::run_cycle(Lock& lock, const std::shared_ptr<SharedTick>& tick) {
+/// Requests the lines of the next cycle, and the object with the lines of the one after it.
+void TickThread::prefetch_following() const {
+    constexpr std::size_t counters = 2 * sizeof(void*); // std::make_shared() puts them before the object
+    if (next < members.size()) members[next]->lines_.prefetch();
+    if (next + 1 >= members.size()) return;
+    const auto* const object = reinterpret_cast<const std::byte*>(members[next + 1].get());
+    for (std::size_t at = 0; at < sizeof(SharedTick) + counters; at += CycleLines::line)
+        __builtin_prefetch(object + at - counters, 1);
+}
+
+void TickThread::note_lines(SharedTick& tick) {
+    tick.lines_.clear();
+    this_thread_lines = &tick.lines_;
+    {
+        const Rehearsal rehearsal;
+        tick.work_.rehearse();
+    }
+    this_thread_lines = nullptr;
+}
+
+/// Runs one cycle, which begins `now`, and sets `now` to its end.
+void TickThread::run_cycle(Lock& lock, const std::shared_ptr<SharedTick>& tick, std::int64_t& now) {
     tick->woken_ = false;
     running = tick.get();
-    running_since = monotonic_ns();
+    running_since = now;
+    const bool notes_lines = tick->work_.rehearse && !tick->rests_ && (rounds + next) % rounds_per_note == 0;
     lock.unlock();
-    const auto after = tick->work_.cycle(planned);
-    const std::int64_t took = monotonic_ns() - running_since;
+    if (notes_lines) note_lines(*tick);
+    const auto after = tick->work_.cycle({planned, now, tick->overran_, tick->took_});
+    now = monotonic_ns();
+    const std::int64_t took = now - running_since;
     lock.lock();
     running = nullptr;
+    tick->took_ = took;
+    tick->overran_ = now >= planned + options.period.count();
     tick->rests_ = after == SharedTick::Next::rest;
     has_woken = has_woken || (tick->rests_ && tick->woken_);
     if (tick->left_) changed.notify_all(); // leave() waits
@@ -131,6 +164,7 @@ void TickThread::run_cycle(Lock& lock, const std::shared_ptr<SharedTick>& tick) 
         else
             threads.apply_change(tick);
     }
+    now = monotonic_ns();
     lock.lock();
 }
 

@@ -41,11 +41,14 @@ struct TickThread : std::enable_shared_from_this<TickThread> {
   private:
     void run();
     void run_round(Lock& lock, bool all);
-    void run_cycle(Lock& lock, const std::shared_ptr<SharedTick>& tick);
+    void run_cycle(Lock& lock, const std::shared_ptr<SharedTick>& tick, std::int64_t& now);
+    void prefetch_following() const;
+    void note_lines(SharedTick& tick);
     bool takes_too_long(SharedTick& tick, std::int64_t took);
     void plan_next();
 
     std::int64_t planned = 0;
+    std::size_t rounds = 0;
     long waits = 0; // voluntary context switches of the thread at the last look
 };
 

@@ -64,6 +64,8 @@ class CellRing {
     bool empty() const {
         return !has_peeked_ && !is_unread(cells_[reader_.cell].word.load(std::memory_order_acquire));
     }
+    /// Returns the address of the word that empty() loads. [reading thread]
+    const void* readers_cell() const { return &cells_[reader_.cell]; }
     /// Takes the oldest value. Its index is readers() until the next take() or peek(). Returns false if there is none.
     /// [reading thread]
     bool take() {

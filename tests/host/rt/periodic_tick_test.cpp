@@ -164,17 +164,15 @@ TEST_CASE("ticks that are interrupted one after the other do not wait for their 
     CHECK(clock.wait() < 50);
 }
 
-TEST_CASE("a tick that another object has waited for overruns if its cycle ends after the next one") {
+TEST_CASE("a tick that another object has waited for overruns if the cycle before has ended after it") {
     PeriodicTick tick({.period = 1h});
     constexpr std::int64_t hour = std::chrono::nanoseconds(1h).count();
     const std::int64_t now = tandem::rt::monotonic_ns();
-    tick.tick_at(now - 2 * hour);
-    tick.end_cycle();
-    tick.tick_at(now - hour / 2);
+    tick.tick_at({now - 2 * hour, now - 2 * hour});
+    tick.tick_at({now - hour, now - hour / 2, true});
     CHECK(tick.stats().overruns == 1);
     CHECK(tick.stats().skipped == 0);
-    tick.end_cycle(); // half an hour before the next tick
-    tick.tick_at(now);
+    tick.tick_at({now, now, false});
     CHECK(tick.stats().overruns == 1);
     CHECK(tick.stats().ticks == 3);
 }

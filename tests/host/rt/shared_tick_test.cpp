@@ -21,8 +21,7 @@ struct Cell {
         std::chrono::nanoseconds period, std::function<Next()> work = [] { return Next::tick; },
         Next first = Next::tick)
         : tick(SharedTick::start({period, {}, {}},
-                                 {"cell",
-                                  [this, work](std::int64_t) {
+                                 {[this, work](const tandem::rt::ArrivedTick&) {
                                       overlaps += inside.exchange(true) ? 1 : 0;
                                       thread = std::this_thread::get_id();
                                       const Next next = work();
@@ -30,6 +29,8 @@ struct Cell {
                                       ++cycles;
                                       return next;
                                   },
+                                  {},
+                                  "cell",
                                   [this](const std::string& line) {
                                       const std::lock_guard lock(mutex);
                                       lines.push_back(line);

@@ -91,19 +91,20 @@ TEST_CASE("each cycle adds its duration to the page, once") {
     tick.wait();                                       // ends it
     CHECK(cycles_of("Plant0") == 1);
     CHECK(slot_named("Plant0")->execution_ns_max >= 100'000);
-    tick.end_cycle();
-    CHECK(cycles_of("Plant0") == 2);
+    tick.rest();
+    tick.wait();
+    CHECK(cycles_of("Plant0") == 1); // no cycle ended
+    tick.begin_cycle();
     tick.wait();
     CHECK(cycles_of("Plant0") == 2);
-    tick.rest();
-    tick.begin_cycle();
-    tick.end_cycle();
-    CHECK(cycles_of("Plant0") == 3);
 
     PeriodicTick shared({.period = 1ms, .name = "Arm"});
-    shared.tick_at(monotonic_ns());
-    shared.end_cycle();
+    const auto now = monotonic_ns();
+    shared.tick_at({now, now});
+    CHECK(cycles_of("Arm") == 0);
+    shared.tick_at({now + 1'000'000, now + 1'000'000, false, 2'000});
     CHECK(cycles_of("Arm") == 1);
+    CHECK(slot_named("Arm")->execution_ns_max == 2'000);
 }
 
 TEST_CASE("ticks beyond the room of the page count for themselves alone") {

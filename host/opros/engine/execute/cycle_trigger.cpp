@@ -24,7 +24,7 @@ class PeriodicTrigger : public CycleTrigger {
     }
     void interrupt() override { tick_.interrupt(); }
     rt::PeriodicTick* tick() override { return &tick_; }
-    crash::CallbackText* callback_text() const override { return &tick_.callback_text(); }
+    crash::CallbackText* callback_text() const override { return tick_.callback_text(); }
     std::string stats() const override {
         const rt::TickStats stats = tick_.stats();
         return fmt::format("every {} ms, {} ticks, {} overruns, {} periods skipped, at most {:.1f} us late",

@@ -38,19 +38,23 @@ bool Executor::start_in_shared_thread() {
     if (profile.has_exclusive_thread) return false;
     separate_thread_ = rt::take_separate_tick_thread();
     if (separate_thread_) return false;
-    const auto cycle = [this, tick](std::int64_t planned) {
+    const auto cycle = [this, tick](const rt::ArrivedTick& arrived) {
         const crash::CallbackPublication publication(trigger_->callback_text());
-        tick->tick_at(planned);
+        tick->tick_at(arrived);
         run_cycle();
-        tick->end_cycle();
         return rt::SharedTick::Next::tick;
     };
     rt::ThreadOptions thread = thread_options();
     thread.name = "shared-ticks";
     const auto write_log = [](const std::string& line) { log::info("{}", line); };
-    shared_tick_ =
-        rt::SharedTick::start({profile.period, profile.phase, thread},
-                              {components_.front()->name(), cycle, write_log}, rt::SharedTick::Next::tick);
+    shared_tick_ = rt::SharedTick::start({profile.period, profile.phase, thread},
+                                         {cycle,
+                                          [this, tick] {
+                                              tick->note_lines();
+                                              rehearse();
+                                          },
+                                          components_.front()->name(), write_log},
+                                         rt::SharedTick::Next::tick);
     return true;
 }
 

@@ -3,6 +3,7 @@
 // OpenRTM-aist: RTObject_impl::on_initialize() ... on_rate_changed(); the order of callback, ports and
 // configuration in each action is the same.
 #include "host/crash/callback_scope.hpp"
+#include "host/rt/cycle_lines.hpp"
 #include "host/rt/periodic_tick.hpp"
 #include "host/rt/rehearsal.hpp"
 #include <atomic>
@@ -155,9 +156,22 @@ ReturnCode_t RTObject_impl::on_reset(UniqueId ec_id) {
 }
 
 ReturnCode_t RTObject_impl::on_execute(UniqueId ec_id) {
+    // What on_execute() and on_state_update() use of this object.
+    const auto note_cycle_lines = [this] {
+        using tandem::rt::note_lines;
+        constexpr std::size_t config_head = 192; // the members that ConfigAdmin::update() looks at
+        auto& [before, after, ports, contexts] = m_actionListeners;
+        note_lines(dynamic_cast<const void*>(this), sizeof(void*));
+        note_lines(&m_profile, sizeof m_profile);
+        note_lines(&m_configsets, config_head);
+        note_lines(&before[m_actionListeners.at(Pre::PRE_ON_EXECUTE)], 2 * sizeof before[0]);
+        note_lines(&after[m_actionListeners.at(Post::POST_ON_EXECUTE)], 2 * sizeof after[0]);
+        note_lines(&m_failedCallback, sizeof m_failedCallback + 5 * sizeof(bool));
+    };
     return run_guarded("onExecute", ec_id, Pre::PRE_ON_EXECUTE, Post::POST_ON_EXECUTE, [&] {
         if (rehearsing()) {
             tandem::rt::prefetch(*this);
+            note_cycle_lines();
             m_portAdmin.rehearsePorts();
             return RTC_OK;
         }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The cycle of an execution context, and how requested transitions are carried out.
+#include "host/rt/cycle_lines.hpp"
 #include "host/rt/rehearsal.hpp"
 #include "host/rtm/runtime/execution/rt_object_state_machine.hpp"
 #include <algorithm>
@@ -18,7 +19,17 @@ void ExecutionContextBase::invokeWorker() {
     m_cycleDone.notify_all();
 }
 
-void ExecutionContextBase::rehearse() { cycle(); }
+void ExecutionContextBase::rehearse() {
+    using tandem::rt::note_lines;
+    note_lines(&m_mutex, sizeof m_mutex + sizeof m_participants);
+    note_lines(&m_cycleMutex,
+               sizeof m_cycleMutex + sizeof m_cycleThread + sizeof m_cycleDoneMutex + sizeof m_cycleDone);
+    const auto all = participants();
+    note_lines(all.get(), sizeof *all);
+    note_lines(all->data(), all->size() * sizeof(Participant));
+    for (auto& participant : *all) note_lines(participant.get(), sizeof *participant);
+    cycle();
+}
 
 void ExecutionContextBase::cycle() {
     std::lock_guard<std::timed_mutex> lock(m_cycleMutex);
@@ -35,7 +46,7 @@ void ExecutionContextBase::cycle() {
 bool ExecutionContextBase::hasWork() {
     const auto all = participants();
     for (auto& participant : *all)
-        if (participant->hasPendingTransition() || participant->state() != INACTIVE_STATE) return true;
+        if (!participant->isInactive()) return true;
     return false;
 }
 

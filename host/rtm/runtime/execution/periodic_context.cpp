@@ -36,6 +36,10 @@ struct PeriodicExecutionContext::Worker {
     std::shared_ptr<void> separate_thread; // token of tandem::rt::take_separate_tick_thread()
 
     TickStatistics tickStatistics() const; // with the mutex held
+    std::shared_ptr<PeriodicTick> currentTick() {
+        const std::lock_guard<std::mutex> lock(mutex);
+        return tick;
+    }
     template <class WaitForTick>
     SharedTick::Next step(PeriodicExecutionContext& context, const WaitForTick& wait_for_tick);
     bool leaveSharedTick(std::unique_lock<std::mutex>& lock);
@@ -115,17 +119,22 @@ RTC::ReturnCode_t PeriodicExecutionContext::onStarted() {
         m_worker = started;
         return RTC::RTC_OK;
     }
-    const auto cycle = [this, started](std::int64_t planned) {
+    const auto cycle = [this, started](const tandem::rt::ArrivedTick& arrived) {
         // Else each call registers the thread, which takes as long.
         thread_local const omni_thread::ensure_self known_to_orb;
-        return started->step(*this, [planned](PeriodicTick& tick) { tick.tick_at(planned); });
+        return started->step(*this, [&](PeriodicTick& tick) { tick.tick_at(arrived); });
+    };
+    const auto rehearse_cycle = [this, started] {
+        tandem::rt::note_lines(started.get(), sizeof *started);
+        started->currentTick()->note_lines();
+        rehearse();
     };
     const auto write_log = [this](const std::string& line) { RTC_INFO(("%s", line.c_str())); };
     const auto first = started->has_rested ? SharedTick::Next::rest : SharedTick::Next::tick;
     std::lock_guard<std::mutex> lock(m_workerMutex);
     started->shared_tick =
         SharedTick::start(sharedTickOptions(getPeriod(), m_phase),
-                          {m_properties.getProperty("tick.owner"), cycle, write_log}, first);
+                          {cycle, rehearse_cycle, m_properties.getProperty("tick.owner"), write_log}, first);
     m_worker = started;
     // A transition that was requested before m_worker was set has woken nobody.
     if (first == SharedTick::Next::rest && hasWork()) started->shared_tick->wake();
@@ -144,14 +153,13 @@ SharedTick::Next PeriodicExecutionContext::Worker::step(PeriodicExecutionContext
     const auto current = tick;
     lock.unlock();
     if (context.hasWork()) {
-        const tandem::crash::CallbackPublication publication(&current->callback_text());
+        const tandem::crash::CallbackPublication publication(current->callback_text());
         if (has_rested)
             current->begin_cycle();
         else
             wait_for_tick(*current);
         if (current->interrupted()) return SharedTick::Next::tick;
         context.invokeWorker();
-        current->end_cycle();
         has_rested = false;
         return SharedTick::Next::tick;
     }

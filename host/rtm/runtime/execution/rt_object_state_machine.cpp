@@ -10,6 +10,7 @@ namespace RTC_impl {
 
 using RTC::ACTIVE_STATE;
 using RTC::ERROR_STATE;
+using RTC::INACTIVE_STATE;
 using RTC::LifeCycleState;
 using RTC::RTC_OK;
 using tandem::process::ComponentState;
@@ -61,26 +62,24 @@ RTObjectStateMachine::RTObjectStateMachine(RTC::UniqueId id, RTC::LightweightRTO
 
 RTObjectStateMachine::~RTObjectStateMachine() = default;
 
-LifeCycleState RTObjectStateMachine::state() const {
-    std::lock_guard<std::mutex> lock(mutex_);
-    return current_;
-}
+LifeCycleState RTObjectStateMachine::state() const { return states_.load().current; }
 
 bool RTObjectStateMachine::hasPendingTransition() const {
-    std::lock_guard<std::mutex> lock(mutex_);
-    return current_ != next_;
+    const States now = states_;
+    return now.current != now.next;
+}
+
+bool RTObjectStateMachine::isInactive() const {
+    return states_.load() == States{INACTIVE_STATE, INACTIVE_STATE};
 }
 
 bool RTObjectStateMachine::requestTransition(LifeCycleState from, LifeCycleState to) {
-    std::lock_guard<std::mutex> lock(mutex_);
-    if (current_ != from || next_ != from) return false;
-    next_ = to;
-    return true;
+    States expected{from, from};
+    return states_.compare_exchange_strong(expected, {from, to});
 }
 
 bool RTObjectStateMachine::isRequested(LifeCycleState from, LifeCycleState to) const {
-    std::lock_guard<std::mutex> lock(mutex_);
-    return current_ == from && next_ == to;
+    return states_.load() == States{from, to};
 }
 
 bool RTObjectStateMachine::refersTo(RTC::LightweightRTObject_ptr component) const {
@@ -89,49 +88,42 @@ bool RTObjectStateMachine::refersTo(RTC::LightweightRTObject_ptr component) cons
 
 // Overrides a pending transition, because an error has priority.
 void RTObjectStateMachine::requestErrorState() {
-    std::lock_guard<std::mutex> lock(mutex_);
-    next_ = ERROR_STATE;
+    States now = states_;
+    while (!states_.compare_exchange_weak(now, {now.current, ERROR_STATE})) continue;
 }
 
-// The caller holds the mutex.
-void RTObjectStateMachine::setState(LifeCycleState state) {
-    current_ = state;
+// Ends a transition. If on_activated has failed, the component counts as active until the next step aborts it.
+void RTObjectStateMachine::enterState(LifeCycleState state, bool entered) {
     if (published_)
         published_->set(state == ACTIVE_STATE  ? ComponentState::active
                         : state == ERROR_STATE ? ComponentState::error
                                                : ComponentState::inactive);
+    // An error that was requested meanwhile stays pending.
+    States now = states_;
+    while (!states_.compare_exchange_weak(now, {state, entered ? now.next : ERROR_STATE})) continue;
 }
 
 void RTObjectStateMachine::applyTransition() {
-    LifeCycleState from, to;
-    {
-        std::lock_guard<std::mutex> lock(mutex_);
-        from = current_;
-        to = next_;
-    }
+    const auto [from, to] = states_.load();
     if (from == to || rehearsing()) return;
     const RTC::TransitionScope scope;
-    // The callbacks run without the mutex: they may ask for the state, or request a transition.
+    // The callbacks may ask for the state, or request a transition.
     if (from == ACTIVE_STATE) call(on_deactivated);
     if (from == ERROR_STATE && call(on_reset) != RTC_OK) return requestErrorState(); // it stays in ERROR
     const bool entered = to == ACTIVE_STATE ? call(on_activated) == RTC_OK : true;
     if (to == ERROR_STATE) call(on_aborting);
-
-    std::lock_guard<std::mutex> lock(mutex_);
-    setState(to);
-    // on_activated has failed. The component counts as active until the next step aborts it.
-    if (!entered) next_ = ERROR_STATE;
+    enterState(to, entered);
 }
 
 void RTObjectStateMachine::execute() {
-    if (hasPendingTransition()) return;
-    const LifeCycleState now = state();
+    const auto [now, next] = states_.load();
+    if (now != next) return;
     if (now == ERROR_STATE && !rehearsing()) call(on_error);
     if (now == ACTIVE_STATE && executeComponent() != RTC_OK) requestErrorState();
 }
 
 void RTObjectStateMachine::updateState() {
-    if (!hasPendingTransition() && state() == ACTIVE_STATE && call(on_state_update) != RTC_OK)
+    if (states_.load() == States{ACTIVE_STATE, ACTIVE_STATE} && call(on_state_update) != RTC_OK)
         requestErrorState();
 }
 

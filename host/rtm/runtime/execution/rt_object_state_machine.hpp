@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "host/process/published/component_states.hpp"
-#include <mutex>
+#include <atomic>
 #include <optional>
 #include <rtm/RTC.h>
 #include <string>
@@ -25,6 +25,8 @@ class RTObjectStateMachine {
 
     RTC::LifeCycleState state() const;
     bool hasPendingTransition() const;
+    /// Returns whether a cycle has nothing to do.
+    bool isInactive() const;
     /// Requests a transition, which the next applyTransition() carries out. Returns false if the component is not in
     /// state `from`, or if a transition is already pending.
     bool requestTransition(RTC::LifeCycleState from, RTC::LifeCycleState to);
@@ -54,6 +56,12 @@ class RTObjectStateMachine {
     RTC::ReturnCode_t rateChanged();
 
   private:
+    /// One value, because a cycle looks at both several times.
+    struct States {
+        RTC::LifeCycleState current, next; // they differ while a transition is pending
+        bool operator==(const States&) const = default;
+    };
+    static_assert(std::atomic<States>::is_always_lock_free);
     struct Action;
     static const Action on_startup, on_shutdown, on_activated, on_deactivated, on_aborting, on_error,
         on_reset, on_execute, on_state_update, on_rate_changed;
@@ -62,7 +70,7 @@ class RTObjectStateMachine {
     RTC::ReturnCode_t callRemote(const Action& action);
     RTC::ReturnCode_t executeComponent();
     void requestErrorState();
-    void setState(RTC::LifeCycleState state);
+    void enterState(RTC::LifeCycleState state, bool entered);
 
     RTC::UniqueId id_;
     RTC::LightweightRTObject_var reference_;
@@ -70,9 +78,7 @@ class RTObjectStateMachine {
     RTC::RTObject_impl* local_;                          // NULL: of another process
     std::string name_;
     std::optional<tandem::process::OwnComponentState> published_; // of a component of this process
-    mutable std::mutex mutex_;                                    // guards both states
-    RTC::LifeCycleState current_ = RTC::INACTIVE_STATE;
-    RTC::LifeCycleState next_ = RTC::INACTIVE_STATE; // differs from current_ while a transition is pending
+    std::atomic<States> states_{States{RTC::INACTIVE_STATE, RTC::INACTIVE_STATE}};
 };
 
 } // namespace RTC_impl

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // InPortBase: makes the connectors of an InPort when it is connected, and chooses the one to read from.
+#include "host/rt/cycle_lines.hpp"
 #include "host/rt/rehearsal.hpp"
 #include "host/rtm/runtime/naming/local_object.hpp"
 #include "host/rtm/runtime/port/custom_serializer.hpp"
@@ -23,6 +24,17 @@ constexpr unsigned empty_looks_per_rehearsal = 4096;
 // The port that is called publishes its address: the InPort of a push connection, the OutPort of a pull one.
 bool is_pull(const coil::Properties& connector_properties) {
     return coil::normalize(connector_properties.getProperty("dataflow_type", "push")) == "pull";
+}
+
+// Notes the lines of a look for a message. `members`: of the port.
+void note_port(std::initializer_list<const void*> members, const InPortBase::ConnectorList& connectors) {
+    using tandem::rt::note_lines;
+    for (const void* member : members) note_lines(member, sizeof(void*));
+    if (connectors.empty()) return;
+    InPortConnector* const connector = connectors.front();
+    note_lines(connectors.data(), sizeof connector);
+    note_lines(connector, sizeof *connector);
+    if (const auto* buffer = dynamic_cast<const PortBuffer*>(connector->getBuffer())) buffer->note_lines();
 }
 
 } // namespace
@@ -223,10 +235,12 @@ bool InPortBase::readFastPath(Unmarshal& reader) {
     if (!mutex.lock_unless_rehearsing()) return false;
     const tandem::rt::ShortLock lock(mutex, std::adopt_lock);
     InPortConnector* const connector = m_fastPath.load(std::memory_order_relaxed);
-    if (connector == nullptr) [[unlikely]]
-        return false;
+    if (connector != nullptr && !tandem::rt::rehearsing()) [[likely]]
+        return connector->readInPlace(reader, m_status[0]);
+    if (tandem::rt::this_thread_lines != nullptr)
+        note_port({this, &m_dataMutex, &m_connectors, &m_fastPath}, m_connectors);
     DataPortStatus ignored;
-    return connector->readInPlace(reader, tandem::rt::rehearsing() ? ignored : m_status[0]);
+    return connector != nullptr && connector->readInPlace(reader, ignored);
 }
 
 InPortConnector* InPortBase::findReadableLocked(const std::string& name, bool fallback_to_first) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The two kinds of connectors of an InPort: the peer pushes, or this side pulls.
 #pragma once
+#include "host/rtm/runtime/transport/buffer/port_buffer.hpp"
 #include "host/rtm/runtime/transport/cdr_servants.hpp"
 #include "host/rtm/runtime/transport/peer_answers.hpp"
 #include "host/rtm/runtime/transport/registered_transports.hpp"
@@ -75,7 +76,7 @@ class InPortPullConnector : public InPortConnector {
     std::optional<DataPortStatus> prefetched_status_;           // result of prefetch() for the next read()
     ByteData prefetched_bytes_;
     PeerErrors errors_;
-    CdrRingBuffer unused_buffer_; // getBuffer() must return one, though a remote sender fills none
+    PortBuffer unused_buffer_; // getBuffer() must return one, though a remote sender fills none
 };
 
 } // namespace RTC

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "host/rtm/runtime/transport/buffer/port_buffer.hpp"
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <rtm/CdrRingBuffer.h>
 #include <rtm/ConnectorBase.h>
 #include <string>
 #include <thread>
@@ -47,7 +47,7 @@ class Publisher {
 
     const std::string connection_;
     Deliver deliver_;
-    CdrRingBuffer buffer_; // locks its own mutex
+    PortBuffer buffer_; // the writer and the thread do not wait for each other in it
     Policy policy_ = Policy::newest;
     unsigned skip_count_ = 0;
     unsigned skip_position_ = 0;         // counts messages under the policy skip

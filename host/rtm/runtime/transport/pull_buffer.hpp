@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include <rtm/CdrRingBuffer.h>
+#include "host/rtm/runtime/transport/buffer/port_buffer.hpp"
 #include <rtm/ConnectorListener.h>
 #include <shared_mutex>
 
@@ -26,7 +26,7 @@ class PullBuffer {
     bool open_ = true;
     ConnectorListeners& listeners_;
     ConnectorInfo info_;
-    CdrRingBuffer buffer_;
+    PortBuffer buffer_;
     std::string marshaling_type_;
 };
 

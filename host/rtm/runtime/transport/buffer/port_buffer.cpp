@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rtm/runtime/transport/buffer/port_buffer.hpp"
 #include "host/rt/crossings.hpp"
+#include "host/rt/cycle_lines.hpp"
 #include "host/rt/rehearsal.hpp"
 #include <algorithm>
 #include <coil/stringutil.h>
@@ -270,6 +271,15 @@ std::size_t PortBuffer::readable() const {
     const ShortLock lock(read_mutex_);
     return ring_->empty() ? 0
                           : std::max<std::size_t>(ring_->size(), 1); // the cell is filled before the count
+}
+
+void PortBuffer::note_lines() const {
+    if (!read_mutex_.lock_if_owner()) return;
+    const ShortLock lock(read_mutex_, std::adopt_lock);
+    tandem::rt::note_lines(&ring_, cache_line);
+    tandem::rt::note_lines(&read_mutex_, cache_line);
+    tandem::rt::note_lines(ring_.get(), sizeof *ring_);
+    tandem::rt::note_lines(ring_->readers_cell(), cache_line);
 }
 
 std::size_t PortBuffer::writable() const {

@@ -24,7 +24,8 @@ class PortBuffer final : public CdrBufferBase, public InPlaceBuffer {
     BufferStatus reset() override;
 
     /// `timeout` > 0: waits this long for room, independent of the policy; 0: does not wait; < 0: uses the policy.
-    BufferStatus write(const ByteData& message, std::chrono::nanoseconds timeout) override;
+    BufferStatus write(const ByteData& message,
+                       std::chrono::nanoseconds timeout = std::chrono::nanoseconds(-1)) override;
     BufferStatus writeReporting(const ByteData& message, bool& overwritten) override;
     std::size_t minInPlaceLength() const override { return 0; }
     /// In a rehearsal encodes the message and does not publish it.
@@ -33,10 +34,13 @@ class PortBuffer final : public CdrBufferBase, public InPlaceBuffer {
     bool full() const override { return writable() == 0; }
 
     /// `timeout` as in write().
-    BufferStatus read(ByteData& message, std::chrono::nanoseconds timeout) override;
+    BufferStatus read(ByteData& message,
+                      std::chrono::nanoseconds timeout = std::chrono::nanoseconds(-1)) override;
     /// In a rehearsal decodes the last message once more.
     BufferStatus readInPlace(ByteData& message, Unmarshal& reader, bool& read_in_place) override;
     std::size_t readable() const override;
+    /// Notes the lines that readable() uses (host/rt/cycle_lines.hpp). Does nothing unless the calling thread owns the end.
+    void note_lines() const;
     bool empty() const override { return readable() == 0; }
 
     // Access to messages without moving, and moves without access. They exclude both threads.
