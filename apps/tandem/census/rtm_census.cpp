@@ -43,8 +43,8 @@ std::vector<std::string> load_rtm(const Candidate&, const fs::path& library) {
     for (const auto& type : probe_rtc_types(library, {})) {
         if (type.name.empty())
             throw std::runtime_error("its module function registers a component without implementation_id");
-        types.push_back(type.name);
         instances.push_back(type.name + "0");
+        types.push_back(type.name + "?instance_name=" + instances.back()); // its type_name may be another
     }
     if (types.empty()) throw std::runtime_error("its module function registers no component");
     const auto conf = library.parent_path() / "census.conf";

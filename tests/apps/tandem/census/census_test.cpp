@@ -31,7 +31,7 @@ void write_rtc(const Folder& folder, const std::string& name, const std::string&
                     "    return RTC::RTC_OK; }}\n"
                     "  RTC::ReturnCode_t onExecute(RTC::UniqueId) override {{ return RTC::RTC_OK; }}\n}};\n"
                     "extern \"C\" void {0}Init(RTC::Manager* m) {{\n"
-                    "  const char* spec[] = {{\"implementation_id\", \"{0}\", \"type_name\", \"{0}\",\n"
+                    "  const char* spec[] = {{\"implementation_id\", \"{0}\", \"type_name\", \"a{0}\",\n"
                     "    \"activity_type\", \"PERIODIC\", \"kind\", \"DataFlowComponent\", \"\"}};\n"
                     "  coil::Properties p(spec);\n"
                     "  m->registerFactory(p, RTC::Create<{0}>, RTC::Delete<{0}>);\n}}\n",
