@@ -11,14 +11,6 @@ class SimulatedMobileController : public tandem::devices::SimulatedBase<MobileCo
     int SetVelocity(OPRoS::MobileVelocityData velocity) override {
         return perform_moved([&] { set_motion(velocity.x, velocity.theta, -1); });
     }
-    int MoveBase(double distance, double velocity) override {
-        if (velocity == 0) return API_ERROR;
-        return perform_moved(
-            [&] { set_motion(std::copysign(velocity, distance), 0, std::fabs(distance / velocity)); });
-    }
-    int IsBaseRunning(bool& running) override {
-        return perform_moved([&] { running = is_moving(); });
-    }
     /// Corrects the position, as after localization. The base does not move.
     int SetPosition(OPRoS::MobilePositionData position) override {
         return perform_moved([&] { position_ = {position.x, position.y, position.theta}; });

@@ -13,7 +13,6 @@
 #include <device/InertiaMeasurementUnit.h>
 #include <device/Joystick.h>
 #include <device/LaserScanner.h>
-#include <device/MobileController.h>
 #include <device/MultiCamera.h>
 #include <device/PositionSensor.h>
 #include <device/ServoActuator.h>
@@ -141,20 +140,6 @@ TEST_CASE("a base moves as it is driven") {
     REQUIRE(base->Drive(0, 0) == API_SUCCESS);
     REQUIRE(base->GetPosition(here) == API_SUCCESS);
     CHECK(here.x == Approx(7));
-}
-
-TEST_CASE("a base of OPRoS v2 moves by a distance and stops") {
-    DeviceUnderTest<MobileController> base("MobileControllerApi");
-    OPRoS::MobilePositionData here;
-    bool running = false;
-    REQUIRE(base->MoveBase(-1, 1) == API_SUCCESS);
-    REQUIRE(base->IsBaseRunning(running) == API_SUCCESS);
-    CHECK(running);
-    for (int i = 0; i < 3; ++i) REQUIRE(base->GetPosition(here) == API_SUCCESS);
-    CHECK(here.x == Approx(-1));
-    REQUIRE(base->IsBaseRunning(running) == API_SUCCESS);
-    CHECK_FALSE(running);
-    CHECK(base->MoveBase(1, 0) == API_ERROR);
 }
 
 TEST_CASE("joints reach their positions in the time given") {

@@ -16,9 +16,6 @@ class MobileController : public Device {
     virtual std::int32_t SetVelocity(OPRoS::MobileVelocityData) { return API_NOT_SUPPORTED; }
     virtual std::int32_t SetPosition(OPRoS::MobilePositionData) { return API_NOT_SUPPORTED; }
     virtual std::int32_t GetPosition(OPRoS::MobilePositionData&) { return API_NOT_SUPPORTED; }
-    // Of the device API of 2015.
-    virtual std::int32_t MoveBase(double /*distance*/, double /*velocity*/) { return API_NOT_SUPPORTED; }
-    virtual std::int32_t IsBaseRunning(bool& /*running*/) { return API_NOT_SUPPORTED; }
 };
 
 #endif
