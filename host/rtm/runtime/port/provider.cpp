@@ -26,13 +26,13 @@ class CorbaPort::Provider::Object {
         : servant_(&servant), poa_(Manager::instance().getShortCutPOA()) {
         // Activates once to get the object id and the IOR. Later activations use this id.
         id_ = poa_->activate_object(servant_);
+        reference_ = poa_->id_to_reference(id_.in());
     }
 
-    /// The caller releases it.
-    CORBA::Object_ptr reference() const { return poa_->id_to_reference(id_.in()); }
+    /// Valid as long as this object, also while it is not active.
+    CORBA::Object_ptr reference() const { return reference_.in(); }
     std::string publish() const {
-        const CORBA::Object_var own_reference = reference();
-        CORBA::String_var ior = Manager::instance().theORB()->object_to_string(own_reference.in());
+        CORBA::String_var ior = Manager::instance().theORB()->object_to_string(reference_.in());
         poa_->deactivate_object(id_.in());
         return ior.in();
     }
@@ -98,6 +98,7 @@ class CorbaPort::Provider::Object {
     PortableServer::ServantBase* const servant_;
     const PortableServer::POA_var poa_;
     PortableServer::ObjectId_var id_;
+    CORBA::Object_var reference_;
     std::mutex mutex_; ///< guards the three members below, and deactivations
     std::condition_variable activated_;
     bool wanted_ = false; ///< it is active, or will be when the thread has activated it
@@ -126,10 +127,7 @@ void CorbaPort::Provider::deactivate() {
 }
 
 void CorbaPort::Provider::offer_shared_calls(ConnectorProfile& profile, const std::string& key) {
-    if (!shared_calls_) {
-        const CORBA::Object_var reference = object_->reference();
-        shared_calls_ = std::make_unique<SharedCallsOffer>(reference.in());
-    }
+    if (!shared_calls_) shared_calls_ = std::make_unique<SharedCallsOffer>(object_->reference());
     shared_calls_->publish(profile, key);
 }
 void CorbaPort::Provider::end_shared_calls(const std::string& connection) {

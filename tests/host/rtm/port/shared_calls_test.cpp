@@ -44,8 +44,8 @@ struct Conversation {
         register_component_type<TalkClient>(fixture.manager(), "TalkClient");
         client = &fixture.create<TalkClient>("TalkClient");
         there = other.component(fixture.manager().theORB(), "Talker0");
+        connect(); // also works before the provider is active
         REQUIRE(CORBA_RTCUtil::activate(there.in()) == RTC::RTC_OK);
-        connect();
         REQUIRE(eventually([&] { return talk().repeat_is("ready"); }));
     }
     void connect() {
