@@ -47,7 +47,7 @@ void drive(Session& session) {
         if (!result.failures.empty()) throw std::runtime_error(result.failures.front());
         const std::size_t first = std::min(settling_samples, result.latencies.size());
         for (std::size_t i = first; i < result.latencies.size(); ++i)
-            session.add_result(result.latencies[i] * 1e3); // us
+            session.add_result(result.latencies[i].us * 1e3);
     }
     session.arrive_and_wait();
 }
