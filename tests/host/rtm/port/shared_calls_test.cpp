@@ -147,6 +147,9 @@ TEST_CASE("A service call through shared memory ends with the exceptions of a ca
         CHECK(error.minor() == 42);
         CHECK(error.completed() == CORBA::COMPLETED_YES);
     }
+    CHECK_THROWS_AS(talk->refuse_wide(0x3042), Testing::WideRefused);
+    CHECK_THROWS_AS(talk->refuse_wide(0x1f600),
+                    CORBA::BAD_PARAM); // CORBA's wstrings have 16 bits per character
     CHECK_THROWS_AS(talk->fail_undeclared(), CORBA::UNKNOWN);
     CHECK_THROWS_AS(talk->fail_with_other_exception(), CORBA::UNKNOWN);
     CHECK(by_orb.count() == 0);

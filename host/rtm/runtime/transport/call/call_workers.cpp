@@ -116,7 +116,7 @@ struct CallWorkers::State : std::enable_shared_from_this<CallWorkers::State> {
     void answer(shm::IncomingCall& call) {
         try {
             execute(call);
-        } catch (const CORBA::MARSHAL&) {
+        } catch (const CORBA::SystemException&) {
             call.reply(shm::CallStatus::bad_arguments);
         } catch (const std::exception& error) {
             call.reply(shm::CallStatus::exception, error.what());

@@ -111,19 +111,27 @@ bool dispatch(omniObjRef& reference, Request& request) {
     return true;
 }
 
-} // namespace
-
-void call_object(CORBA::Object_ptr object, const char* operation, CallStream& arguments, CallStream& reply) {
-    Request request(operation, arguments, reply);
+/// Throws what the servant throws, except user exceptions, and a system exception if the results or a user exception
+/// cannot be encoded.
+void call_or_write_user_exception(omniObjRef& reference, Request& request, CallStream& reply) {
     try {
-        if (!dispatch(*object->_PR_getobj(), request)) begin_reply(reply, ReplyKind::not_here);
-    } catch (const CORBA::SystemException& exception) {
-        request.write(exception);
+        if (!dispatch(reference, request)) begin_reply(reply, ReplyKind::not_here);
     } catch (const CORBA::UserException& exception) {
         request.write(exception);
     } catch (omniORB::LOCATION_FORWARD& forward) {
         const CORBA::Object_var released(forward.get_obj());
         begin_reply(reply, ReplyKind::not_here);
+    }
+}
+
+} // namespace
+
+void call_object(CORBA::Object_ptr object, const char* operation, CallStream& arguments, CallStream& reply) {
+    Request request(operation, arguments, reply);
+    try {
+        call_or_write_user_exception(*object->_PR_getobj(), request, reply);
+    } catch (const CORBA::SystemException& exception) {
+        request.write(exception);
     } catch (const std::bad_alloc&) {
         request.write(CORBA::NO_MEMORY(omni::NO_MEMORY_BadAlloc, request.completed()));
     } catch (...) { // a servant is a user's code and may throw any type
