@@ -34,6 +34,7 @@ class TalkServant : public POA_Testing::Talk {
         const std::lock_guard lock(mutex_);
         return new Testing::Longs(noted_);
     }
+    void tell(Testing::Listener_ptr whom) override { whom->heard(0); }
     CORBA::Object_ptr repeat_object(CORBA::Object_ptr value) override {
         return CORBA::Object::_duplicate(value);
     }
