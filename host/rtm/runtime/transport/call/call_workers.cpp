@@ -118,6 +118,10 @@ struct CallWorkers::State : std::enable_shared_from_this<CallWorkers::State> {
             ++idle;
             auto call = calls.take(threads > kept_threads ? idle_time : shm::longest_wait);
             const bool is_last = --idle == 0;
+            if (call && stopped) { // not closed yet, or opened again by the caller's process
+                call->reply(shm::CallStatus::shut_down);
+                call.reset();
+            }
             if (!call && ends_this_thread()) return;
             if (!call) continue;
             if (is_last) start_thread();
