@@ -62,7 +62,7 @@ class Running {
 
 CallSender::CallSender()
     // No other link has that name. Otherwise a segment of another container with the same /dev/shm could be joined.
-    : link_(std::string("rtm-calls-") + coil::UUID_Generator().generateUUID()->to_string()),
+    : link_(std::string(call_link_prefix) + coil::UUID_Generator().generateUUID()->to_string()),
       segment_(create_call_segment(link_)),
       // The component waits in its cycle, so it sleeps, as in a call of the ORB.
       calls_(segment_.calls, {.mode = shm::WaitMode::futex}) {}
