@@ -233,6 +233,23 @@ TEST_CASE("A service call through shared memory has the time limit of service ca
     CHECK(talk.repeat_is("later"));
 }
 
+TEST_CASE("Service calls go by the ORB while calls whose time is over keep the queue full") {
+    const Conversation conversation({"manager.service_call_timeout:1"});
+    const auto talk = conversation.talk();
+    std::vector<std::thread> threads;
+    for (int i = 0; i < 16; ++i)
+        threads.emplace_back([&] {
+            try {
+                talk->wait_for(60'000);
+            } catch (const CORBA::TIMEOUT&) { // as expected: the next call finds the queue full
+            }
+        });
+    for (auto& thread : threads) thread.join();
+    const OrbRequests by_orb;
+    CHECK(talk.repeat_is("later"));
+    CHECK(by_orb.count() == 1);
+}
+
 TEST_CASE("A provider that is killed ends its calls, and further calls say that it cannot be reached") {
     Conversation conversation;
     const auto talk = conversation.talk();
