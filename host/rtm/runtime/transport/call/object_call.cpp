@@ -86,16 +86,9 @@ class Request final : public omni::IOP_S {
     std::span<const char* const> exceptions_;
 };
 
-/// What the ORB knows a thread by.
-omni_thread* orb_thread() {
-    if (omni_thread* const known = omni_thread::self()) return known;
-    thread_local const omni_thread::ensure_self known_from_now_on;
-    return omni_thread::self();
-}
-
 /// Returns false if the object is not active.
 bool dispatch(omniObjRef& reference, Request& request) {
-    omniCallHandle handle(&request, orb_thread());
+    omniCallHandle handle(&request, omni_thread::self());
     omni::internalLock->lock(); // dispatch() below returns without it
     omniIdentity& identity = *reference._identity();
     omniLocalIdentity* object =
