@@ -9,6 +9,7 @@
 #include <omniORB4/callHandle.h>
 #include <omniORB4/minorCode.h>
 #include <omniORB4/omniObjRef.h>
+#include <vector>
 
 namespace RTC {
 namespace {
@@ -28,7 +29,7 @@ class Request final : public omni::IOP_S {
     cdrStream& getStream() override { return arguments_; }
     void ReceiveRequest(omniCallDescriptor& call) override {
         call_ = &call;
-        exceptions_ = {call.user_excns(), static_cast<std::size_t>(std::max(call.n_user_excns(), 0))};
+        exceptions_.assign(call.user_excns(), call.user_excns() + std::max(call.n_user_excns(), 0));
         call.unmarshalArguments(arguments_);
         arguments_.clearValueTracker();
         reply_.set_completion(CORBA::COMPLETED_MAYBE);
@@ -83,7 +84,8 @@ class Request final : public omni::IOP_S {
     CallStream& arguments_;
     CallStream& reply_;
     omniCallDescriptor* call_ = nullptr; // from ReceiveRequest() to SendReply()
-    std::span<const char* const> exceptions_;
+    // Copied: a servant without a skeleton may have the list in its frame, which ends before the exception arrives here.
+    std::vector<const char*> exceptions_;
 };
 
 /// Returns false if the object is not active.
