@@ -18,6 +18,10 @@ class TalkServant : public POA_Testing::Talk {
     CORBA::Any* repeat_any(const CORBA::Any& value) override { return new CORBA::Any(value); }
     Testing::Bytes* repeat_bytes(const Testing::Bytes& value) override { return new Testing::Bytes(value); }
     void refuse(const char* reason) override { throw Testing::Refused(reason, 7); }
+    void refuse_wide(CORBA::ULong character) override {
+        const CORBA::WChar reason[] = {static_cast<CORBA::WChar>(character), 0};
+        throw Testing::WideRefused(reason);
+    }
     void fail_undeclared() override { throw Testing::Refused("undeclared", 8); }
     void fail_with_system_exception() override { throw CORBA::BAD_INV_ORDER(42, CORBA::COMPLETED_YES); }
     void fail_with_other_exception() override { throw std::runtime_error("as told"); }
@@ -30,6 +34,7 @@ class TalkServant : public POA_Testing::Talk {
         const std::lock_guard lock(mutex_);
         return new Testing::Longs(noted_);
     }
+    void tell(Testing::Listener_ptr whom) override { whom->heard(0); }
     CORBA::Object_ptr repeat_object(CORBA::Object_ptr value) override {
         return CORBA::Object::_duplicate(value);
     }

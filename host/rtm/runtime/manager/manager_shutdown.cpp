@@ -141,9 +141,10 @@ bool Manager::Impl::end_in_order(Manager& manager) {
     }
     destroy(exited);
 
-    // The connectors are gone, but a message may still be on its way to a process that hangs or cannot be reached.
+    // The connectors are gone, but a message may still be on its way to a process that hangs or cannot be reached, and a
+    // service call of another process may still run.
     const bool all_sent = sending_threads_end_within(host_options().stop_timeout);
-    if (!all_sent) leave_behind("a message to another process");
+    if (!all_sent) leave_behind("a call to or from another process");
     // orb->shutdown(true) waits for calls in progress, and a component's servant may never return from one.
     const auto end_orb = std::make_shared<std::packaged_task<void()>>([this, all_sent] {
         orb->shutdown(true);

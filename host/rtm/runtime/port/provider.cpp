@@ -127,10 +127,12 @@ void CorbaPort::Provider::deactivate() {
 }
 
 void CorbaPort::Provider::offer_shared_calls(ConnectorProfile& profile, const std::string& key) {
+    const std::lock_guard lock(offer_mutex_);
     if (!shared_calls_) shared_calls_ = std::make_unique<SharedCallsOffer>(object_->reference());
     shared_calls_->publish(profile, key);
 }
 void CorbaPort::Provider::end_shared_calls(const std::string& connection) {
+    const std::lock_guard lock(offer_mutex_);
     if (shared_calls_) shared_calls_->end(connection);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 #include "host/rtm/runtime/transport/call/shared_calls.hpp"
 #include <memory>
+#include <mutex>
 #include <rtm/CorbaPort.h>
 #include <string>
 
@@ -35,6 +36,7 @@ class CorbaPort::Provider {
     const std::string descriptor_;
     std::string ior_;
     std::shared_ptr<Object> object_;
+    std::mutex offer_mutex_; ///< guards the next one: ports are connected by several ORB threads
     std::unique_ptr<SharedCallsOffer> shared_calls_; ///< from the first connection with another process on
     const omniServant* called_ = nullptr;            ///< the servant, as set_servant_owner() knows it
 };

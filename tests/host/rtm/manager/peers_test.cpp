@@ -344,7 +344,7 @@ TEST_CASE("A host that ends while a message waits for a receiver that hangs says
     REQUIRE(well.host.wait_for_output("received ")); // ten messages, so that one to the other host waits
     sender.host.send_signal(SIGTERM);
     CHECK(sender.host.wait_for_exit() == 1);
-    CHECK(sender.host.errors.find("a message to another process does not return") != std::string::npos);
+    CHECK(sender.host.errors.find("a call to or from another process does not return") != std::string::npos);
     CHECK(sender.host.errors.find("exiting without waiting for") != std::string::npos);
 }
 

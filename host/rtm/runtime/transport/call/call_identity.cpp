@@ -68,6 +68,11 @@ class CallIdentity final : public omniIdentity {
 
 } // namespace
 
+bool is_in_another_process(CORBA::Object_ptr object) {
+    const omni_tracedmutex_lock lock(*omni::internalLock);
+    return omniRemoteIdentity::downcast(object->_PR_getobj()->_identity()) != nullptr;
+}
+
 void send_calls(CORBA::Object_ptr object, std::shared_ptr<CallSender> sender) {
     omniObjRef* const reference = object->_PR_getobj();
     const omni_tracedmutex_lock lock(*omni::internalLock);

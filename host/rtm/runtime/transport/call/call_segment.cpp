@@ -33,6 +33,8 @@ CallSegment create_call_segment(const std::string& link) {
 }
 
 CallSegment open_call_segment(const std::string& link) {
+    if (!link.starts_with(call_link_prefix))
+        throw tandem::shm::Error("link '" + link + "': not a name of a segment for calls");
     std::shared_ptr<Segment> segment = Segment::join(link, Side::second, join_options());
     tandem::shm::install_truncation_guard();
     auto calls = segment->find_call_queue(Side::first, queue_name);

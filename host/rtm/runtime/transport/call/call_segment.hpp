@@ -8,9 +8,12 @@
 #include <omniORB4/CORBA.h>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace RTC {
 
+/// How the link names of such segments begin. A caller may name no other segment for its peer to open.
+constexpr std::string_view call_link_prefix = "rtm-calls-";
 /// The number of calls that one queue carries at a time.
 constexpr std::uint32_t max_shared_calls = 16;
 
@@ -23,7 +26,7 @@ struct CallSegment {
 /// Creates the segment of that link, for its caller. Throws tandem::shm::Error, also if /dev/shm is full.
 CallSegment create_call_segment(const std::string& link);
 /// Opens the segment that the caller has created. Throws tandem::shm::Error, also if there is no such link on this
-/// machine.
+/// machine, or the name is not one of a segment for calls.
 CallSegment open_call_segment(const std::string& link);
 
 /// A request is, in CDR of this machine's byte order: whether it is oneway (ULong), the calling thread (ULongLong), the

@@ -62,7 +62,7 @@ class Running {
 
 CallSender::CallSender()
     // No other link has that name. Otherwise a segment of another container with the same /dev/shm could be joined.
-    : link_(std::string("rtm-calls-") + coil::UUID_Generator().generateUUID()->to_string()),
+    : link_(std::string(call_link_prefix) + coil::UUID_Generator().generateUUID()->to_string()),
       segment_(create_call_segment(link_)),
       // The component waits in its cycle, so it sleeps, as in a call of the ORB.
       calls_(segment_.calls, {.mode = shm::WaitMode::futex}) {}
@@ -81,9 +81,15 @@ bool CallSender::is_served() {
     return !is_over_;
 }
 
+// A call that has timed out keeps its slot until it ends, perhaps forever. Otherwise running calls have the slots.
+bool CallSender::is_full(std::uint32_t running_before) {
+    return running_before >= max_shared_calls ||
+           (has_timed_out_.load(std::memory_order_relaxed) && calls_.counters().in_use >= max_shared_calls);
+}
+
 bool CallSender::call(omniCallDescriptor& call) {
     const Running running(running_);
-    if (running.before() >= max_shared_calls || !is_served()) return false;
+    if (is_full(running.before()) || !is_served()) return false;
     static thread_local char this_thread;
     CallStream request;
     static_cast<CORBA::ULong>(call.is_oneway()) >>= request;
@@ -105,6 +111,7 @@ bool CallSender::call(omniCallDescriptor& call) {
         is_over_ = true;
         return false;
     case shm::CallStatus::timeout:
+        has_timed_out_ = true;
         throw_timeout();
     case shm::CallStatus::peer_died:
         is_over_ = true;

@@ -9,6 +9,7 @@
 #include <map>
 #include <mutex>
 #include <pthread.h>
+#include <semaphore>
 #include <vector>
 
 namespace RTC {
@@ -17,6 +18,12 @@ namespace {
 namespace shm = tandem::shm;
 
 constexpr std::size_t kept_threads = 2;
+// A oneway call no longer has a place in the queue while it runs. So that the calls in the queue always find a thread, also
+// those within oneway calls, there are as many threads again.
+constexpr std::ptrdiff_t max_oneway_calls = max_shared_calls;
+constexpr std::size_t max_threads = max_shared_calls + max_oneway_calls;
+// Between two looks whether the caller of a waiting call has given up.
+constexpr std::chrono::milliseconds pause{100};
 constexpr std::chrono::seconds idle_time{1}; // after which further threads end
 
 /// Keeps the order of oneway calls: a call of a thread begins after the oneway calls that the thread has made before.
@@ -43,11 +50,11 @@ class OnewayOrder {
         }
         Place(const Place&) = delete;
         Place& operator=(const Place&) = delete;
-        /// Waits until the oneway calls before this one have ended.
-        void wait() const {
-            if (before_ == 0) return;
+        /// Waits until the oneway calls before this one have ended, at most `bound`. Returns false if they have not.
+        bool wait(std::chrono::milliseconds bound) const {
+            if (before_ == 0) return true;
             std::unique_lock lock(order_.mutex_);
-            order_.ended_.wait(lock, [this] {
+            return order_.ended_.wait_for(lock, bound, [this] {
                 const auto found = order_.threads_.find(thread_);
                 return found == order_.threads_.end() || found->second.ended >= before_;
             });
@@ -81,6 +88,11 @@ class OnewayOrder {
 } // namespace
 
 struct CallWorkers::State : std::enable_shared_from_this<CallWorkers::State> {
+    using Room = std::counting_semaphore<max_oneway_calls>;
+    struct Release {
+        void operator()(Room* room) const { room->release(); }
+    };
+
     State(CallSegment from, CORBA::Object_ptr called)
         : segment(std::move(from.segment)), calls(from.calls, {.mode = shm::WaitMode::futex}),
           object(CORBA::Object::_duplicate(called)) {}
@@ -88,7 +100,7 @@ struct CallWorkers::State : std::enable_shared_from_this<CallWorkers::State> {
     /// Returns false if the process cannot create a thread.
     bool start_thread() {
         const std::lock_guard lock(mutex);
-        if (threads == max_shared_calls) return true;
+        if (threads == max_threads) return true;
         if (!start_sending_thread([self = shared_from_this()] { self->run(); })) return false;
         ++threads;
         return true;
@@ -102,10 +114,16 @@ struct CallWorkers::State : std::enable_shared_from_this<CallWorkers::State> {
     }
     void run() {
         pthread_setname_np(pthread_self(), "tandem-calls");
+        const omni_thread::ensure_self
+            known_to_orb; // for call_object(); ends before the ORB can be destroyed
         for (;;) {
             ++idle;
             auto call = calls.take(threads > kept_threads ? idle_time : shm::longest_wait);
             const bool is_last = --idle == 0;
+            if (call && stopped) { // not closed yet, or opened again by the caller's process
+                call->reply(shm::CallStatus::shut_down);
+                call.reset();
+            }
             if (!call && ends_this_thread()) return;
             if (!call) continue;
             if (is_last) start_thread();
@@ -116,7 +134,7 @@ struct CallWorkers::State : std::enable_shared_from_this<CallWorkers::State> {
     void answer(shm::IncomingCall& call) {
         try {
             execute(call);
-        } catch (const CORBA::MARSHAL&) {
+        } catch (const CORBA::SystemException&) {
             call.reply(shm::CallStatus::bad_arguments);
         } catch (const std::exception& error) {
             call.reply(shm::CallStatus::exception, error.what());
@@ -129,20 +147,35 @@ struct CallWorkers::State : std::enable_shared_from_this<CallWorkers::State> {
         is_oneway <<= request;
         thread <<= request;
         const CORBA::String_var operation(request.unmarshalRawString());
-        const OnewayOrder::Place place(order, thread, is_oneway != 0);
-        CallStream reply;
         if (is_oneway == 0) {
-            place.wait();
+            const OnewayOrder::Place place(order, thread, false);
+            if (!wait_while_wanted(call, [&] { return place.wait(pause); })) return;
+            CallStream reply;
             call_object(object.in(), operation.in(), request, reply);
             return call.reply(shm::CallStatus::ok, reply.written());
         }
+        if (!wait_while_wanted(call, [&] { return room.try_acquire_for(pause); })) return;
+        const std::unique_ptr<Room, Release> taken(&room);
+        const OnewayOrder::Place place(order, thread, true);
         const std::span<const std::byte> all = call.arguments();
         const std::vector<std::byte> copy(all.begin(), all.end()); // the caller may use the slot again
         CallStream arguments(copy, CORBA::COMPLETED_NO);
         arguments.skipInput(request.currentInputPtr());
         call.reply(shm::CallStatus::ok);
-        place.wait();
-        call_object(object.in(), operation.in(), arguments, reply);
+        while (!place.wait(pause)) continue;
+        CallStream unused;
+        call_object(object.in(), operation.in(), arguments, unused);
+    }
+    /// Returns false if the caller has given up, or this end has stopped, so that the call must go by the ORB. The call is
+    /// then answered and must not run.
+    template <class Wait>
+    bool wait_while_wanted(shm::IncomingCall& call, const Wait& wait) {
+        while (!wait()) {
+            if (!call.cancelled()) continue;
+            call.reply(shm::CallStatus::shut_down);
+            return false;
+        }
+        return true;
     }
     void stop() {
         stopped = true;
@@ -155,6 +188,7 @@ struct CallWorkers::State : std::enable_shared_from_this<CallWorkers::State> {
     shm::CallServer calls;
     const CORBA::Object_var object;
     OnewayOrder order;
+    Room room{max_oneway_calls}; // for oneway calls that are answered and have not ended
     std::atomic<bool> stopped{false};
     std::atomic<unsigned> idle{0};
     std::mutex mutex; // guards changes of the next one

@@ -5,7 +5,8 @@
 namespace RTC {
 
 /// The threads that execute the calls of one segment. There is one at first. Whenever the last idle thread takes a call,
-/// another one starts, up to max_shared_calls, so that nested calls cannot block each other. Two threads are kept.
+/// another one starts, up to twice max_shared_calls, so that calls within calls, also within oneway ones, cannot block each
+/// other. Two threads are kept.
 class CallWorkers {
   public:
     /// Executes calls of `object`, which is in this process. Throws tandem::shm::Error if the process cannot create a

@@ -9,6 +9,7 @@
 #include <omniORB4/callHandle.h>
 #include <omniORB4/minorCode.h>
 #include <omniORB4/omniObjRef.h>
+#include <vector>
 
 namespace RTC {
 namespace {
@@ -28,7 +29,7 @@ class Request final : public omni::IOP_S {
     cdrStream& getStream() override { return arguments_; }
     void ReceiveRequest(omniCallDescriptor& call) override {
         call_ = &call;
-        exceptions_ = {call.user_excns(), static_cast<std::size_t>(std::max(call.n_user_excns(), 0))};
+        exceptions_.assign(call.user_excns(), call.user_excns() + std::max(call.n_user_excns(), 0));
         call.unmarshalArguments(arguments_);
         arguments_.clearValueTracker();
         reply_.set_completion(CORBA::COMPLETED_MAYBE);
@@ -83,19 +84,13 @@ class Request final : public omni::IOP_S {
     CallStream& arguments_;
     CallStream& reply_;
     omniCallDescriptor* call_ = nullptr; // from ReceiveRequest() to SendReply()
-    std::span<const char* const> exceptions_;
+    // Copied: a servant without a skeleton may have the list in its frame, which ends before the exception arrives here.
+    std::vector<const char*> exceptions_;
 };
-
-/// What the ORB knows a thread by.
-omni_thread* orb_thread() {
-    if (omni_thread* const known = omni_thread::self()) return known;
-    thread_local const omni_thread::ensure_self known_from_now_on;
-    return omni_thread::self();
-}
 
 /// Returns false if the object is not active.
 bool dispatch(omniObjRef& reference, Request& request) {
-    omniCallHandle handle(&request, orb_thread());
+    omniCallHandle handle(&request, omni_thread::self());
     omni::internalLock->lock(); // dispatch() below returns without it
     omniIdentity& identity = *reference._identity();
     omniLocalIdentity* object =
@@ -111,19 +106,27 @@ bool dispatch(omniObjRef& reference, Request& request) {
     return true;
 }
 
-} // namespace
-
-void call_object(CORBA::Object_ptr object, const char* operation, CallStream& arguments, CallStream& reply) {
-    Request request(operation, arguments, reply);
+/// Throws what the servant throws, except user exceptions, and a system exception if the results or a user exception
+/// cannot be encoded.
+void call_or_write_user_exception(omniObjRef& reference, Request& request, CallStream& reply) {
     try {
-        if (!dispatch(*object->_PR_getobj(), request)) begin_reply(reply, ReplyKind::not_here);
-    } catch (const CORBA::SystemException& exception) {
-        request.write(exception);
+        if (!dispatch(reference, request)) begin_reply(reply, ReplyKind::not_here);
     } catch (const CORBA::UserException& exception) {
         request.write(exception);
     } catch (omniORB::LOCATION_FORWARD& forward) {
         const CORBA::Object_var released(forward.get_obj());
         begin_reply(reply, ReplyKind::not_here);
+    }
+}
+
+} // namespace
+
+void call_object(CORBA::Object_ptr object, const char* operation, CallStream& arguments, CallStream& reply) {
+    Request request(operation, arguments, reply);
+    try {
+        call_or_write_user_exception(*object->_PR_getobj(), request, reply);
+    } catch (const CORBA::SystemException& exception) {
+        request.write(exception);
     } catch (const std::bad_alloc&) {
         request.write(CORBA::NO_MEMORY(omni::NO_MEMORY_BadAlloc, request.completed()));
     } catch (...) { // a servant is a user's code and may throw any type

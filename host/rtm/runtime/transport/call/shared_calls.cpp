@@ -93,7 +93,7 @@ void SharedCallsOffer::end(const std::string& connection) { servant_->end(connec
 
 void share_calls_if_possible(CORBA::Object_ptr provider, const std::string& provider_ior,
                              const ConnectorProfile& profile) {
-    if (CORBA::is_nil(provider)) return;
+    if (CORBA::is_nil(provider) || !is_in_another_process(provider)) return;
     try {
         const CORBA::Object_var offer = find_offer(profile.properties, provider_ior);
         if (CORBA::is_nil(offer.in()) || !address_on_another_machine(offer.in()).empty()) return;
