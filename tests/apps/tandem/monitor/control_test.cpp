@@ -123,6 +123,8 @@ TEST_CASE(
     CHECK(answered["id"] == 7);
     CHECK(answered["ok"] == false);
     CHECK_THAT(answered["text"].get<std::string>(), Catch::Contains("NoSuchComponent0"));
+    const auto library = client.ask({{"op", "opros"}, {"command", "info"}, {"arguments", {"/tmp/X.so"}}});
+    CHECK(library["text"] == "unknown command: info"); // it would run the library's code
     // Longer than a request may be: the monitor closes the connection, perhaps before all has been sent.
     CHECK_THROWS((client.send(std::string(20'000, 'x')), client.next()));
     CHECK(monitor.runs());
