@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shows on every view whether a recording runs, and lists the recordings for download.
-import {KeyedList, make, setText} from '../dom.js';
+import {KeyedList, make, setAttributes, setText} from '../dom.js';
 
 const find = (id) => document.getElementById(id);
 const name = (path) => path.split('/').pop();
@@ -19,7 +19,6 @@ export class RecordingsView {
 
   createItem(file) {
     const item = make('li'), link = make('a', '', file);
-    link.href = `api/recordings/${file}?token=${encodeURIComponent(this.panel.token)}`;
     link.download = file;
     item.append(link, ' ', make('span', 'empty'));
     return item;
@@ -27,6 +26,7 @@ export class RecordingsView {
 
   updateItem(item, {file, bytes, time_ms: time}) {
     const runs = this.file !== '' && name(this.file) === file;
+    setAttributes(item.firstChild, {href: `api/recordings/${file}?token=${encodeURIComponent(this.panel.token)}`}); // which may be a new one
     setText(item.lastChild, `${sizeText(bytes)}, ${runs ? '● being recorded' : new Date(time).toLocaleString([], {hour12: false})}`);
   }
 
