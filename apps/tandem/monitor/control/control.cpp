@@ -27,11 +27,9 @@ namespace {
 
 constexpr std::chrono::milliseconds look_pause{20};
 
-/// Returns the start of a program's output. Replaces all but newlines and printable ASCII by '?'.
-std::string text_in(int file) {
-    const off_t size = lseek(file, 0, SEEK_END);
-    std::string text(std::min(Programs::max_output, static_cast<std::size_t>(std::max<off_t>(size, 0))),
-                     '\0');
+/// Returns the start of a program's output of this size. Replaces all but newlines and printable ASCII by '?'.
+std::string text_in(int file, std::size_t size) {
+    std::string text(std::min(Programs::max_output, size), '\0');
     const auto bytes = pread(file, text.data(), text.size(), 0);
     text.resize(bytes < 0 ? 0 : static_cast<std::size_t>(bytes));
     for (char& c : text)
@@ -129,11 +127,14 @@ void Programs::look() {
             ++job;
             continue;
         }
-        const std::string output =
-            text_in(job->output.get()) + (late ? "stopped: it took more than 15 s\n" : "");
+        const auto size = static_cast<std::size_t>(std::max<off_t>(lseek(job->output.get(), 0, SEEK_END), 0));
+        const bool cut = size > max_output;
+        const std::string output = text_in(job->output.get(), size) +
+                                   (late ? "stopped: it took more than 15 s\n" : "") +
+                                   (cut ? "\ncut: the output has more than 4 MiB\n" : "");
         const Done done = std::move(job->done);
         job = jobs_.erase(job);
-        done(ended && ended->success(), output);
+        done(ended && ended->success() && !cut, output);
     }
     if (jobs_.empty()) return;
     timer_.expires_after(look_pause);
