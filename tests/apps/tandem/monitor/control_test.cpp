@@ -199,6 +199,7 @@ TEST_CASE("recordings are listed and downloaded with the token, and nothing else
     CHECK(whole.body == std::string(300'000, 'm'));
     CHECK(get(monitor, "/api/recordings/" + name).status == 403);
     CHECK(get(monitor, "/api/recordings/" + name + "?token=0").status == 403);
+    CHECK(get(monitor, "/api/recordings/" + name + query, "POST").status == 405);
     for (const char* other :
          {"", "../", "tandem-20200102-030406.mcap", "..%2f", "tandem-2020010a-030405.mcap"})
         CHECK(get(monitor, std::string("/api/recordings/") + other + query).status == 404);

@@ -2,6 +2,7 @@
 // Shows on every view whether a recording runs, and lists the recordings for download.
 import {KeyedList, make, setAttributes, setText} from '../dom.js';
 
+const pause = 1000; // ms between two requests
 const find = (id) => document.getElementById(id);
 const name = (path) => path.split('/').pop();
 
@@ -36,16 +37,16 @@ export class RecordingsView {
     if (file !== this.file) this.changed(file, state.time_ms);
     find('recording-now').hidden = file === '';
     if (file) setText(find('recording-now'), `● Recording, ${Math.max(0, Math.round((state.time_ms - this.since) / 1000))} s`);
-    if (this.panel.connection.open && !find('control-section').hidden && state.time_ms - (this.askedAt ?? 0) > 1000) this.ask(state.time_ms);
+    if (this.panel.connection.open && !find('control-section').hidden && performance.now() - this.askedAt > pause) this.ask();
   }
 
   changed(file, time) {
-    Object.assign(this, {file, since: time, askedAt: 0});
+    Object.assign(this, {file, since: time, askedAt: -pause});
     find('recording-now').title = file;
   }
 
-  async ask(time) {
-    this.askedAt = time;
+  async ask() {
+    this.askedAt = performance.now();
     const reply = await this.panel.connection.ask({op: 'recordings'});
     if (!reply.ok) return;
     this.list.show(reply.recordings, ({file}) => file);
