@@ -297,6 +297,17 @@ bool add_sources(const std::string& output, const PluginBuildOptions& options, P
            (!symbols.empty() && add_source(checkout_files(options.folder), *symbols.begin(), plugin));
 }
 
+// Returns the text of the header that is compiled before each source. C sources lack the headers of C++, whose names have
+// no dot.
+std::string declarations_of(const std::map<std::string, std::string>& names) {
+    std::string text;
+    for (const auto& [name, declaration] : names) {
+        const bool of_cpp = name.front() == '<' && name.find('.') == std::string::npos;
+        text += of_cpp ? "#ifdef __cplusplus\n" + declaration + "\n#endif\n" : declaration + "\n";
+    }
+    return text;
+}
+
 // Configures and compiles in the folder `build`. Repeats both when it has found what was missing.
 void compile(Plugin& plugin, const PluginBuildOptions& options, const fs::path& build) {
     const std::string bin = (build / "bin").string();
@@ -305,9 +316,7 @@ void compile(Plugin& plugin, const PluginBuildOptions& options, const fs::path& 
                                         plugin.neighbours);
         for (const auto& idl : plugin.includes.idl_files) require_cmake_path(idl); // from any sub-folder
         const auto forwards = write_forwards(plugin.includes.forwards, build / "forwards");
-        std::string declarations;
-        for (const auto& [name, declaration] : plugin.missing_names) declarations += declaration + "\n";
-        write_file(forwards / names_header, declarations);
+        write_file(forwards / names_header, declarations_of(plugin.missing_names));
         write_file(build / "CMakeLists.txt", cmake_project(plugin, options, build, forwards));
         // Two steps, each with a separate time limit and message. CMAKE_HAVE_LIBC_PTHREAD saves CMake a
         // test program: glibc has threads in libc since 2.34.

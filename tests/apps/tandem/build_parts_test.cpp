@@ -194,6 +194,8 @@ TEST_CASE("a header is searched in the whole checkout by the longest matching pa
     CHECK(find_definitions(list_files_below(checkout), "robot::addPort(char const*)") ==
           std::vector<fs::path>{checkout / "lib/Port.cpp"});
     CHECK(find_definitions(list_files_below(checkout), "robot::removePort(char const*)").empty());
+    for (const char* symbol : {"vtable for Box<int (*)(int)>", "vtable for f()::Local", "vtable for ", "("})
+        CHECK(find_definitions(list_files_below(checkout), symbol).empty());
     // The compiler looks for a name with "../" beside the folder that it searches.
     const auto forwards = write_forwards(
         {{"../One/Device.h", "/there/Device.h"}, {"../../../../../x.h", "/x"}}, folder.path() / "forwards");

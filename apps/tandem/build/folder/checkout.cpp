@@ -31,9 +31,13 @@ Paths distinct(const Paths& files) {
     return found;
 }
 
-// Returns the sources that define members of the class or use its static ones.
+// Returns the sources that define members of the class or use its static ones. None for a class in a function or template,
+// whose name is no plain one.
 Paths with_members_of(const Paths& files, const std::string& name) {
-    const std::regex member("\\b" + name.substr(name.rfind(':') + 1) + "::");
+    static const std::regex plain_name("(?:\\w+::)*(\\w+)");
+    std::smatch names;
+    if (!std::regex_match(name, names, plain_name)) return {};
+    const std::regex member("\\b" + names[1].str() + "::");
     Paths found;
     for (const auto& file : files)
         if (is_source(file) && std::regex_search(strip_comments(read_text(file)), member))

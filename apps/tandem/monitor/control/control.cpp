@@ -27,11 +27,9 @@ namespace {
 
 constexpr std::chrono::milliseconds look_pause{20};
 
-/// Returns the start of a program's output. Replaces all but newlines and printable ASCII by '?'.
-std::string text_in(int file) {
-    const off_t size = lseek(file, 0, SEEK_END);
-    std::string text(std::min(Programs::max_output, static_cast<std::size_t>(std::max<off_t>(size, 0))),
-                     '\0');
+/// Returns the start of a program's output of this size. Replaces all but newlines and printable ASCII by '?'.
+std::string text_in(int file, std::size_t size) {
+    std::string text(std::min(Programs::max_output, size), '\0');
     const auto bytes = pread(file, text.data(), text.size(), 0);
     text.resize(bytes < 0 ? 0 : static_cast<std::size_t>(bytes));
     for (char& c : text)
@@ -129,11 +127,14 @@ void Programs::look() {
             ++job;
             continue;
         }
-        const std::string output =
-            text_in(job->output.get()) + (late ? "stopped: it took more than 15 s\n" : "");
+        const auto size = static_cast<std::size_t>(std::max<off_t>(lseek(job->output.get(), 0, SEEK_END), 0));
+        const bool cut = size > max_output;
+        const std::string output = text_in(job->output.get(), size) +
+                                   (late ? "stopped: it took more than 15 s\n" : "") +
+                                   (cut ? "\ncut: the output has more than 4 MiB\n" : "");
         const Done done = std::move(job->done);
         job = jobs_.erase(job);
-        done(ended && ended->success(), output);
+        done(ended && ended->success() && !cut, output);
     }
     if (jobs_.empty()) return;
     timer_.expires_after(look_pause);
@@ -196,11 +197,12 @@ void Control::drive(const PlainJson& request, const Reply& reply) {
     if (request.contains("id")) reply(answer(request, true, "sent"));
 }
 
-/// Runs a sub-command of `tandem rtm` or `tandem opros`.
+/// Runs a sub-command of `tandem rtm` or `tandem opros`. None of them may load code: `tandem opros info` is left out, because
+/// it runs the library that its argument names.
 void Control::run_tool(const PlainJson& request, const Reply& reply) {
     static const std::map<std::string, std::set<std::string>> allowed{
         {"rtm", {"list", "tree", "info", "activate", "deactivate", "reset", "connect", "disconnect", "conf"}},
-        {"opros", {"list", "info", "start", "stop", "recover", "conf"}}};
+        {"opros", {"list", "start", "stop", "recover", "conf"}}};
     const auto tool = request.at("op").get<std::string>(), name = request.at("command").get<std::string>();
     if (allowed.at(tool).count(name) == 0) return reply(answer(request, false, "unknown command: " + name));
     std::vector<std::string> command{program_, tool, name};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/monitor/control/host_logs.hpp"
 
+#include "apps/tandem/monitor/host_files/process_files.hpp"
 #include "host/process/file_descriptor.hpp"
 
 #include <fcntl.h>
@@ -43,15 +44,18 @@ int tandem_above(std::uint32_t pid) {
 bool add_log(std::uint32_t pid, const std::string& host, std::map<std::string, Log>& logs) {
     const std::string path = fmt::format("/proc/{}/fd/2", pid);
     struct stat status {};
-    if (stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode) || status.st_uid != geteuid())
+    if (stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return false;
+    process::FileDescriptor file(open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+    // The process may have another file by now.
+    if (file.get() < 0 || fstat(file.get(), &status) != 0 || !S_ISREG(status.st_mode) ||
+        status.st_uid != geteuid())
         return false;
     const std::string id = fmt::format("{}-{}", status.st_dev, status.st_ino);
     if (const auto known = logs.find(id); known != logs.end()) {
         known->second.hosts.insert(host);
         return true;
     }
-    process::FileDescriptor file(open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
-    if (file.get() < 0 || logs.size() >= max_logs) return false;
+    if (logs.size() >= max_logs) return false;
     logs[id] = {std::move(file), static_cast<std::uint64_t>(status.st_size), {host}};
     return true;
 }
@@ -81,13 +85,8 @@ nlohmann::json read_log(const std::string& id, const Log& log, const nlohmann::j
 } // namespace
 
 nlohmann::json read_host_logs(const State& state, const nlohmann::json& from) {
-    std::map<std::uint32_t, std::string> hosts;
-    for (const ComponentStatus& component : state.components) hosts[component.pid] = component.program;
-    for (const LinkState& link : state.links)
-        for (const SideState& side : link.sides)
-            if (side.pid != 0 && side.state == shm::PeerState::alive) hosts[side.pid] = side.program;
     std::map<std::string, Log> logs;
-    for (const auto& [pid, program] : hosts) {
+    for (const auto& [pid, program] : running_hosts(state)) {
         const std::string host = fmt::format("{} {}", program, pid);
         if (add_log(pid, host, logs)) continue;
         if (const int above = tandem_above(pid); above > 0)

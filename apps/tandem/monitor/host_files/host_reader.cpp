@@ -79,10 +79,17 @@ void HostReader::read(State& state, std::uint64_t now_ns) {
         linked_ = linked;
         look(state);
     }
+    std::size_t left_out = 0;
     if (without_links_)
-        for (const auto& [pid, program] : found_)
-            if (linked.count(pid) == 0 && state.hosts.size() < max_hosts)
+        for (const auto& [pid, program] : found_) {
+            if (linked.count(pid) != 0) continue;
+            if (state.hosts.size() < max_hosts)
                 state.hosts.push_back({pid, program});
+            else
+                ++left_out;
+        }
+    if (left_out != 0)
+        state.unseen.push_back(std::to_string(left_out) + " more hosts without a link are not shown");
     usage_.read(state.hosts, now_ns);
     for (HostState& host : state.hosts) {
         host.inventory = inventories_.read(host.pid);

@@ -14,7 +14,7 @@ namespace tandem::monitor {
 /// Finds the running hosts, and reads what they list and how much of the machine they use. [one thread]
 class HostReader {
   public:
-    /// Further hosts without a link are not shown.
+    /// Further hosts without a link are not shown. State::unseen says so.
     static constexpr std::size_t max_hosts = 256;
 
     /// `without_links`: also hosts of this user that are on no link.

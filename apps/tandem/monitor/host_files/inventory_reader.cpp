@@ -4,6 +4,7 @@
 #include "apps/tandem/monitor/host_files/process_files.hpp"
 #include "host/process/published/inventory.hpp"
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -38,6 +39,12 @@ std::uint64_t number(const std::string& text) {
     std::uint64_t value = 0;
     std::from_chars(text.data(), text.data() + text.size(), value);
     return value;
+}
+
+/// Returns what distinguishes a file from others, also from one of the process before with the same pid.
+std::uint64_t inode_of(const process::FileDescriptor& file) {
+    struct stat info {};
+    return fstat(file.get(), &info) == 0 ? info.st_ino : 0;
 }
 
 Fields rest(const Fields& fields, std::size_t from) {
@@ -122,8 +129,11 @@ bool InventoryReader::look(std::uint32_t pid) {
     auto files = open_memory_files(pid, Head::file_name, Head::file_bytes, max_files);
     if (files.empty()) return false;
     Process& process = processes_[pid];
-    if (files.size() == process.files.size()) return true;
-    process.files.clear();
+    const bool same = std::equal(
+        files.begin(), files.end(), process.files.begin(), process.files.end(),
+        [](const auto& found, const File& known) { return inode_of(found) == inode_of(known.file); });
+    if (same) return true; // the read texts stay
+    process = {};
     for (auto& file : files) process.files.push_back({std::move(file)});
     return true;
 }

@@ -7,10 +7,10 @@ const maxCounts = 2000, countsByKey = 1000;
 export class Stick {
   /** `svg` has a pad around `centre` of its viewBox. `reach`: full deflection there. `connection`: of control.js. */
   constructor(svg, centre, reach, connection) {
-    Object.assign(this, {svg, centre, reach, connection, link: null, keys: new Set(), timer: null, position: null});
+    Object.assign(this, {svg, centre, reach, connection, link: null, keys: new Set(), timer: null, position: null, pointer: null});
     svg.addEventListener('pointerdown', (event) => {
       if (!this.drives) return;
-      svg.setPointerCapture(event.pointerId);
+      svg.setPointerCapture(this.pointer = event.pointerId);
       this.follow(event);
     });
     svg.addEventListener('pointermove', (event) => svg.hasPointerCapture(event.pointerId) && this.follow(event));
@@ -23,9 +23,10 @@ export class Stick {
     connection.listeners.push(() => this.update());
   }
 
-  /** `link`: of the wheelchair to drive; null: none. */
+  /** `link`: of the wheelchair to drive; null: none. Releases the stick of the one before: who holds it must take it again. */
   offer(link) {
     if (this.link === link) return;
+    this.release();
     this.link = link;
     this.update();
   }
@@ -50,6 +51,7 @@ export class Stick {
   key(event, down) {
     if (!event.key.startsWith('Arrow') || !this.drives) return;
     event.preventDefault();
+    if (event.repeat && !this.keys.has(event.key)) return; // pressed before the stick was released
     if (down) this.keys.add(event.key);
     else this.keys.delete(event.key);
     const held = (name) => this.keys.has(name) ? countsByKey : 0;
@@ -72,6 +74,7 @@ export class Stick {
   release() {
     clearInterval(this.timer);
     this.keys.clear();
+    if (this.pointer !== null && this.svg.hasPointerCapture(this.pointer)) this.svg.releasePointerCapture(this.pointer);
     if (this.timer === null) return;
     this.timer = this.position = null;
     if (this.drives) this.send();

@@ -13,6 +13,8 @@ namespace {
 using wire::Kind;
 using wire::Type;
 
+constexpr std::size_t max_format = 64; ///< bytes; a longer name is cut
+
 bool is_integer(Kind kind) {
     return kind == Kind::int16 || kind == Kind::uint16 || kind == Kind::int32 || kind == Kind::uint32 ||
            kind == Kind::int64 || kind == Kind::uint64;
@@ -44,7 +46,7 @@ void read(const Type& type, wire::CdrReader& in, Picture& picture) {
         else if (is_integer(member.kind) && member.name == "height")
             picture.height = wire::get_integer(member.kind, in);
         else if (member.kind == Kind::string && member.name == "format")
-            picture.format = in.get_string();
+            picture.format = in.get_string().substr(0, max_format);
         else if (member.kind == Kind::enumeration && member.name == "format")
             picture.format = fmt::format("format {}", in.get<std::uint32_t>());
         else if (is_octets(member))

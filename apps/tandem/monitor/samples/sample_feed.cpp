@@ -117,17 +117,21 @@ void SampleFeed::look() {
     });
 }
 
+/// Pictures come last, in any order: a client takes only the first of several large ones.
 void SampleFeed::send_to(SampleClient& client, std::uint64_t now_ms) {
     std::string json;
+    std::vector<std::shared_ptr<const std::string>> frames;
     for (const SamplePort& port : client.ports()) {
         const auto found = followed_.find(port);
         if (found == followed_.end()) continue;
         const Followed& followed = found->second;
         if (!followed.chunks.empty()) json += (json.empty() ? "" : ",") + followed.chunks + "]}";
         if (!followed.message.is_null()) json += "," + port_head(port, {{"message", followed.message}}) + "}";
-        if (followed.frame != nullptr) client.picture(followed.frame);
+        if (followed.frame != nullptr) frames.push_back(followed.frame);
     }
     if (!json.empty()) client.samples(now_ms, json);
+    std::shuffle(frames.begin(), frames.end(), order_);
+    for (const auto& frame : frames) client.picture(frame);
 }
 
 void SampleFeed::poll(const SamplePort& port, Followed& followed, Round& round) {

@@ -15,6 +15,7 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <random>
 #include <set>
 #include <string>
 #include <vector>
@@ -86,7 +87,8 @@ class SampleFeed {
     std::function<const State&()> state_;
     std::set<SampleClient*> clients_;
     std::map<SamplePort, Followed> followed_;
-    SamplePort first_; ///< port that the last look began with
+    SamplePort first_;         ///< port that the last look began with
+    std::minstd_rand order_{}; ///< of the pictures for a client
 };
 
 } // namespace tandem::monitor

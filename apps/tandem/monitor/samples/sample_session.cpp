@@ -66,12 +66,12 @@ void SampleSession::on_message(const std::string& text, bool) {
 }
 
 void SampleSession::samples(std::uint64_t time_ms, const std::string& json) {
-    if (queued_bytes() > max_queued) return;
+    if (queued_bytes(false) > max_queued) return;
     send(std::make_shared<const std::string>(fmt::format(R"({{"time_ms":{},"ports":[{}]}})", time_ms, json)));
 }
 
 void SampleSession::picture(const std::shared_ptr<const std::string>& frame) {
-    if (queued_bytes() <= max_queued) send(frame, true);
+    if (queued_bytes(true) <= max_queued) send(frame, true);
 }
 
 } // namespace tandem::monitor

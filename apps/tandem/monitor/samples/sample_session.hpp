@@ -13,7 +13,8 @@ class SampleSession final : public WebSocketSession, private SampleClient {
   public:
     static constexpr std::size_t max_message = 16 << 10; ///< bytes of a client's message
     static constexpr std::size_t max_ports = 16;         ///< that a client can follow
-    static constexpr std::size_t max_queued = 1 << 20;   ///< bytes; a slow client misses samples beyond
+    static constexpr std::size_t max_queued =
+        1 << 20; ///< bytes of samples, and of pictures; a slow client misses what comes beyond
 
     SampleSession(boost::beast::tcp_stream stream, Service& service, Place place);
     ~SampleSession() override;

@@ -180,7 +180,8 @@ void HttpSession::answer(const Request& request) {
     if (beast::websocket::is_upgrade(request)) return upgrade(request);
     if (path_of(request) == "/api/control" && service_.control == nullptr)
         return refuse(status::forbidden, read_only);
-    if (path_of(request).rfind(recordings_path, 0) == 0) return send_recording(request);
+    if (request.method() == http::verb::get && path_of(request).rfind(recordings_path, 0) == 0)
+        return send_recording(request);
     Response response = respond(request, service_);
     response.keep_alive(request.keep_alive() && !has_body(request));
     write(std::move(response));
@@ -189,7 +190,6 @@ void HttpSession::answer(const Request& request) {
 /// Recordings contain all messages, so they are for clients with the token.
 void HttpSession::send_recording(const Request& request) {
     if (service_.control == nullptr) return refuse(status::forbidden, read_only);
-    if (request.method() != http::verb::get) return write(respond(request, service_));
     if (!service_.control->is_token(token_of(request)))
         return refuse(status::forbidden,
                       "expected the token printed by tandem monitor --control, as ?token=...");
@@ -205,6 +205,7 @@ void HttpSession::send_recording(const Request& request) {
     response.set(http::field::content_type, "application/octet-stream");
     response.set(http::field::content_disposition, "attachment; filename=\"" + name + "\"");
     response.set(http::field::cache_control, "no-store");
+    response.set("X-Content-Type-Options", "nosniff");
     response.keep_alive(false);
     response_.keep_alive(false); // on_write() closes the connection
     response.prepare_payload();

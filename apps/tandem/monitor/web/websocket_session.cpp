@@ -45,7 +45,7 @@ void WebSocketSession::read() {
 }
 
 void WebSocketSession::send(std::shared_ptr<const std::string> bytes, bool binary) {
-    queued_bytes_ += bytes->size();
+    (binary ? queued_binaries_ : queued_texts_) += bytes->size();
     queue_.push_back({std::move(bytes), binary});
     if (queue_.size() == 1) write();
 }
@@ -55,7 +55,9 @@ void WebSocketSession::write() {
     stream_.async_write(boost::asio::buffer(*queue_.front().bytes),
                         [self = shared_from_this()](WebSocketFailure failure, std::size_t) {
                             if (failure) return self->close();
-                            self->queued_bytes_ -= self->queue_.front().bytes->size();
+                            const auto& sent = self->queue_.front();
+                            (sent.binary ? self->queued_binaries_ : self->queued_texts_) -=
+                                sent.bytes->size();
                             self->queue_.pop_front();
                             if (self->queue_.empty())
                                 self->on_sent();

@@ -38,7 +38,8 @@ class WebSocketSession : public std::enable_shared_from_this<WebSocketSession> {
 
     void send(std::shared_ptr<const std::string> bytes, bool binary = false);
     std::size_t queued_messages() const { return queue_.size(); } ///< includes the one being sent
-    std::size_t queued_bytes() const { return queued_bytes_; }
+    std::size_t queued_bytes() const { return queued_texts_ + queued_binaries_; }
+    std::size_t queued_bytes(bool binary) const { return binary ? queued_binaries_ : queued_texts_; }
     void close(); ///< ends the pending operations
 
   private:
@@ -54,8 +55,8 @@ class WebSocketSession : public std::enable_shared_from_this<WebSocketSession> {
     Place place_;
     Request request_;
     boost::beast::flat_buffer received_;
-    std::deque<Outgoing> queue_; ///< the first is being sent
-    std::size_t queued_bytes_ = 0;
+    std::deque<Outgoing> queue_;                         ///< the first is being sent
+    std::size_t queued_texts_ = 0, queued_binaries_ = 0; ///< bytes
 };
 
 } // namespace tandem::monitor

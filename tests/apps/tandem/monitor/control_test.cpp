@@ -123,6 +123,8 @@ TEST_CASE(
     CHECK(answered["id"] == 7);
     CHECK(answered["ok"] == false);
     CHECK_THAT(answered["text"].get<std::string>(), Catch::Contains("NoSuchComponent0"));
+    const auto library = client.ask({{"op", "opros"}, {"command", "info"}, {"arguments", {"/tmp/X.so"}}});
+    CHECK(library["text"] == "unknown command: info"); // it would run the library's code
     // Longer than a request may be: the monitor closes the connection, perhaps before all has been sent.
     CHECK_THROWS((client.send(std::string(20'000, 'x')), client.next()));
     CHECK(monitor.runs());
@@ -197,6 +199,7 @@ TEST_CASE("recordings are listed and downloaded with the token, and nothing else
     CHECK(whole.body == std::string(300'000, 'm'));
     CHECK(get(monitor, "/api/recordings/" + name).status == 403);
     CHECK(get(monitor, "/api/recordings/" + name + "?token=0").status == 403);
+    CHECK(get(monitor, "/api/recordings/" + name + query, "POST").status == 405);
     for (const char* other :
          {"", "../", "tandem-20200102-030406.mcap", "..%2f", "tandem-2020010a-030405.mcap"})
         CHECK(get(monitor, std::string("/api/recordings/") + other + query).status == 404);

@@ -75,6 +75,7 @@ TEST_CASE("simple names of Windows and standard headers are added if a source la
     const Folder folder;
     old_component(folder, "BOOL found = TRUE; typedef int BOOL; BYTE byte = 1; (void)found; (void)byte; "
                           "std::deque<int> queue;");
+    folder.write("Old/wheel.c", "int wheels(void) { return 4; }\n"); // C has no <deque>
     const std::vector<std::string> arguments{folder.path() / "Old", "-I", folder.path() / "neighbour"};
     const auto built = build(arguments);
     INFO(built.output << built.errors);

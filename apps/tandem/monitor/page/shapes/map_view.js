@@ -5,6 +5,15 @@ import {makeSvg, setAttributes} from '../dom.js';
 const margin = 0.7, smallest = 3; // m
 const steps = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500];
 
+/** The distance between two lines for at most 20 of them. */
+const stepFor = (side) => steps.find((each) => side / each <= 20) ?? 10 ** Math.ceil(Math.log10(side / 20));
+
+/** Returns the multiples of a step from a place on. Messages may have any numbers: counting on from 1e17 would never end. */
+function multiples(from, side, step) {
+  const first = Math.ceil(from / step), count = Math.floor((from + side) / step) - first + 1;
+  return Array.from({length: Math.min(Math.max(count, 0), 21)}, (_, i) => (first + i) * step);
+}
+
 export class MapView {
   /** `svg`: gets the map. `marker`: an element that is drawn at the pose, looking to the right. */
   constructor(svg, marker) {
@@ -37,10 +46,9 @@ export class MapView {
     this.box = {x, y, side};
     const left = x - side / 2, low = y - side / 2;
     setAttributes(this.svg, {viewBox: [left, -low - side, side, side].map((value) => value.toFixed(3)).join(' ')});
-    this.step = steps.find((each) => side / each <= 20) ?? steps.at(-1);
-    const lines = [];
-    for (let at = Math.ceil(left / this.step); at * this.step <= left + side; ++at) lines.push(`M ${at * this.step} ${low} V ${low + side}`);
-    for (let at = Math.ceil(low / this.step); at * this.step <= low + side; ++at) lines.push(`M ${left} ${at * this.step} H ${left + side}`);
+    this.step = stepFor(side);
+    const lines = [...multiples(left, side, this.step).map((at) => `M ${at} ${low} V ${low + side}`),
+      ...multiples(low, side, this.step).map((at) => `M ${left} ${at} H ${left + side}`)];
     setAttributes(this.grid, {d: lines.join(' ')});
   }
 

@@ -44,24 +44,33 @@ export class PictureView {
     this.element = make('figure', 'picture');
     this.canvas = make('canvas');
     this.caption = make('figcaption');
+    this.decodes = false;
     this.element.append(this.canvas, this.caption);
   }
 
-  /** `picture`: of pictureIn(). Draws each picture once. */
+  /** `picture`: of pictureIn(). Draws each picture once, and decodes one at a time: those that come meanwhile are left out. */
   async show(picture) {
-    if (picture === this.shown) return;
+    if (picture === this.shown || this.decodes) return;
     this.shown = picture;
-    const {port, pixels, format} = picture, type = compressionOf(pixels);
-    const image = type ? await createImageBitmap(new Blob([pixels], {type})).catch(() => null) : this.imageOf(picture);
-    if (picture !== this.shown) return; // a newer one has come meanwhile
-    const {width, height} = image ?? picture;
+    const {pixels} = picture, type = compressionOf(pixels);
+    if (!type) return this.draw(picture, this.imageOf(picture));
+    this.decodes = true;
+    const image = await createImageBitmap(new Blob([pixels], {type})).catch(() => null);
+    this.decodes = false;
+    this.draw(picture, image);
+    image?.close(); // frees its memory now
+  }
+
+  /** `image`: null if the picture cannot be shown. */
+  draw(picture, image) {
+    const {port, pixels, format} = picture, {width, height} = image ?? picture;
     this.canvas.hidden = image === null;
     if (image === null)
       return setText(this.caption, `✕ ${width} × ${height} pixels with ${pixels.length} bytes${format ? `, format ${format}` : ''}: cannot be shown`);
     if (this.canvas.width !== width || this.canvas.height !== height) Object.assign(this.canvas, {width, height});
     const context = this.canvas.getContext('2d');
-    if (type) context.drawImage(image, 0, 0);
-    else context.putImageData(image, 0, 0);
+    if (image instanceof ImageData) context.putImageData(image, 0, 0);
+    else context.drawImage(image, 0, 0);
     setAttributes(this.canvas, {role: 'img', 'aria-label': `Picture of ${port}`});
     setText(this.caption, `${width} × ${height} pixels${format ? `, ${format}` : ''}`);
   }

@@ -13,14 +13,13 @@ export function lineIn(text) {
 }
 
 export class LogStore {
-  constructor() { Object.assign(this, {lines: [], offsets: {}, next: 1, hosts: new Set()}); }
+  constructor() { Object.assign(this, {lines: [], offsets: {}, next: 1}); }
 
   /** Takes an answer to the request `log`. Returns whether there are new lines. */
   take(logs) {
     const before = this.next;
     for (const {id, hosts, text: lines, next} of logs) {
       this.offsets[id] = next;
-      for (const host of hosts) this.hosts.add(host);
       let at = this.lines.at(-1)?.at ?? ''; // of a line without a time: that of the line before
       for (const text of lines.split('\n').filter((each) => each !== '')) {
         const line = lineIn(text);

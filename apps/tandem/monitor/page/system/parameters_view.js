@@ -21,12 +21,12 @@ export class ParametersView {
   async refresh() {
     const {component} = this;
     if (!component) return;
-    const request = (command) => ({op: component.model === 'RTM' ? 'rtm' : 'opros', command, arguments: [component.id], json: true});
-    const [conf, info] = await Promise.all([this.ask(request('conf')), this.ask(request('info'))]);
+    const rtm = component.model === 'RTM', request = (command) => ({op: rtm ? 'rtm' : 'opros', command, arguments: [component.id], json: true});
+    const [conf, info] = await Promise.all([this.ask(request('conf')), rtm ? this.ask(request('info')) : null]);
     if (component !== this.component) return;
-    const values = conf.ok ? jsonIn(conf.text) : null, declared = info.ok ? jsonIn(info.text)?.properties ?? {} : {};
+    const values = conf.ok ? jsonIn(conf.text) : null, declared = info?.ok ? jsonIn(info.text)?.properties ?? {} : {};
     if (values === null) this.draw([make('p', 'bad', `✕ ${conf.text.trim()}`)]);
-    else if (component.model === 'RTM') this.draw(values.map((set) => this.createSet(set, values, declared)));
+    else if (rtm) this.draw(values.map((set) => this.createSet(set, values, declared)));
     else this.draw([this.createValues(values.properties, 'property', () => [], {})]);
   }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shows on every view whether a recording runs, and lists the recordings for download.
-import {KeyedList, make, setText} from '../dom.js';
+import {KeyedList, make, setAttributes, setText} from '../dom.js';
 
+const pause = 1000; // ms between two requests
 const find = (id) => document.getElementById(id);
 const name = (path) => path.split('/').pop();
 
@@ -19,7 +20,6 @@ export class RecordingsView {
 
   createItem(file) {
     const item = make('li'), link = make('a', '', file);
-    link.href = `api/recordings/${file}?token=${encodeURIComponent(this.panel.token)}`;
     link.download = file;
     item.append(link, ' ', make('span', 'empty'));
     return item;
@@ -27,6 +27,7 @@ export class RecordingsView {
 
   updateItem(item, {file, bytes, time_ms: time}) {
     const runs = this.file !== '' && name(this.file) === file;
+    setAttributes(item.firstChild, {href: `api/recordings/${file}?token=${encodeURIComponent(this.panel.token)}`}); // which may be a new one
     setText(item.lastChild, `${sizeText(bytes)}, ${runs ? '● being recorded' : new Date(time).toLocaleString([], {hour12: false})}`);
   }
 
@@ -36,16 +37,16 @@ export class RecordingsView {
     if (file !== this.file) this.changed(file, state.time_ms);
     find('recording-now').hidden = file === '';
     if (file) setText(find('recording-now'), `● Recording, ${Math.max(0, Math.round((state.time_ms - this.since) / 1000))} s`);
-    if (this.panel.connection.open && !find('control-section').hidden && state.time_ms - (this.askedAt ?? 0) > 1000) this.ask(state.time_ms);
+    if (this.panel.connection.open && !find('control-section').hidden && performance.now() - this.askedAt > pause) this.ask();
   }
 
   changed(file, time) {
-    Object.assign(this, {file, since: time, askedAt: 0});
+    Object.assign(this, {file, since: time, askedAt: -pause});
     find('recording-now').title = file;
   }
 
-  async ask(time) {
-    this.askedAt = time;
+  async ask() {
+    this.askedAt = performance.now();
     const reply = await this.panel.connection.ask({op: 'recordings'});
     if (!reply.ok) return;
     this.list.show(reply.recordings, ({file}) => file);

@@ -2,9 +2,10 @@
 // The components that the page can change, from the answers of `tandem rtm tree` and `tandem opros list`, and which of their ports fit.
 // Draws nothing.
 
-/** Returns the JSON in the output of a command; a failure of a part, such as a name server, is a line behind it. */
+/** Returns the JSON in the output of a command, or null; a failure of a part, such as a name server, is a line behind it. */
 export function jsonIn(text) {
-  for (const end of [text.length, text.lastIndexOf(']') + 1, text.lastIndexOf('}') + 1]) {
+  const ends = [...text.matchAll(/^(\[\]|\{\}|\]|\})$/gm)].map((line) => line.index + line[0].length);
+  for (const end of [text.length, ...ends]) {
     try {
       return JSON.parse(text.slice(0, end));
     } catch (error) {
@@ -81,12 +82,19 @@ export function propertiesAgain(properties) {
     .map(([key, value]) => `${key}=${value}`).slice(0, 16);
 }
 
-/** Returns the connections and active RT-Components as lines of rtc.conf, for the folder of a `tandem run`. */
+/** Whether rtc.conf can have a text in a list. Names are those of other programs, and one with a newline would be another setting. */
+const isPlain = (text) => /^[^\s\u0000-\u001f\u007f,&?#()"\\]+$/.test(text);
+
+/** Returns the connections and active RT-Components as lines of rtc.conf, for the folder of a `tandem run`. A comment says if
+ * some are left out. */
 export function rtcConfOf(components) {
-  const connections = connectionsIn(components).filter(({ports}) => ports.length === 2).map(({ports: [from, to], properties}) =>
-    [`${from}?port=${to}`, ...propertiesAgain(properties).map((each) => each.replace(/^dataport\./, ''))].join('&'));
+  const connections = connectionsIn(components).map(({ports, properties}) => [ports, propertiesAgain(properties).map((each) => each.replace(/^dataport\./, ''))]);
   const active = components.filter(({model, state}) => model === 'RTM' && state === 'ACTIVE').map(({name}) => name);
-  return `manager.components.preconnect: ${connections.join(', ')}\nmanager.components.preactivation: ${active.join(', ')}\n`;
+  const written = connections.filter(([ports, properties]) => ports.length === 2 && [...ports, ...properties].every(isPlain)), plain = active.filter(isPlain);
+  const left = connections.length - written.length + active.length - plain.length;
+  const lines = written.map(([[from, to], properties]) => [`${from}?port=${to}`, ...properties].join('&'));
+  return `manager.components.preconnect: ${lines.join(', ')}\nmanager.components.preactivation: ${plain.join(', ')}\n` +
+    (left > 0 ? `# ${left} connections or components are left out: rtc.conf cannot name them.\n` : '');
 }
 
 /** What can be done to a component in a state: [command, label, command that undoes it]. */

@@ -46,15 +46,25 @@ export class SystemView {
     this.wanted = true;
     if (this.reading) return;
     this.reading = true;
-    while (this.wanted) {
-      this.wanted = false;
-      const [tree, opros] = await Promise.all([this.connection.ask({op: 'rtm', command: 'tree', json: true}),
-        this.connection.ask({op: 'opros', command: 'list', json: true})]);
-      this.components = componentsIn(jsonIn(tree.text), jsonIn(opros.text));
-      setText(find('system-note'), this.components.length > 0 ? '' : `No component answers. ${tree.ok ? '' : tree.text.trim()}`);
-      this.draw();
+    try {
+      while (this.wanted) {
+        this.wanted = false;
+        await this.readOnce();
+      }
+    } finally {
+      this.reading = false;
     }
-    this.reading = false;
+  }
+
+  async readOnce() {
+    const [tree, opros] = await Promise.all([this.connection.ask({op: 'rtm', command: 'tree', json: true}),
+      this.connection.ask({op: 'opros', command: 'list', json: true})]);
+    const rtcs = jsonIn(tree.text), hosts = jsonIn(opros.text);
+    this.components = componentsIn(rtcs, hosts);
+    const none = this.components.length === 0, failed = [[tree, rtcs], [opros, hosts]].filter(([{ok}, json]) => json === null || (none && !ok));
+    const reasons = failed.map(([{ok, text}]) => ok ? 'an answer cannot be read' : text.trim().split('\n').at(-1));
+    setText(find('system-note'), [...none ? ['No component answers.'] : [], ...reasons].join(' '));
+    this.draw();
   }
 
   draw() {

@@ -193,3 +193,19 @@ test("one of several wheelchairs is chosen, and the map follows it", async () =>
   assert.match(shown[1], /^x 59\.50 m/);
   assert.ok(shown[2][0] < 59.5 && 59.5 < shown[2][0] + shown[2][2] && shown[2][2] === 8, shown[2].join());
 });
+
+test("a held stick does not drive another wheelchair when the chosen one ends", async () => {
+  const sent = await page.evaluate(async () => {
+    const { Stick } = await import("./stick.js"), { makeSvg } = await import("./dom.js"), sent = [];
+    const stick = new Stick(makeSvg("svg"), [0, 0], 1, { listeners: [], open: true, send: ({ link, y }) => sent.push(`${link} ${y}`) });
+    const press = (repeat) => stick.svg.dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowUp", repeat }));
+    stick.offer("a");
+    press(false);
+    press(true);
+    stick.offer("b");
+    press(true); // as the browser repeats it while the key is held
+    stick.release();
+    return sent;
+  });
+  assert.deepEqual(sent, ["a 1000", "a 0"]);
+});

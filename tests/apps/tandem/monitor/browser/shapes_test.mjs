@@ -77,6 +77,19 @@ test("poses, distances and pictures are recognized by their members", async () =
     bgr: [3, 2, 1, 255], grey: [7, 7, 7, 255, 9, 9, 9, 255], short: null, compressed: ["image/jpeg", null] });
 });
 
+test("a map has at most 21 lines in each direction, whatever numbers a message has", async () => {
+  const lines = await page.evaluate(async () => {
+    const { MapView } = await import("./shapes/map_view.js"), { makeSvg } = await import("./dom.js");
+    const map = new MapView(makeSvg("svg"), makeSvg("path"));
+    return [[[0, 0], [4, 3]], [[0, 0], [1e6, 0]], [[1e17, 0]], [[-1e300, 1e300]], [[-1e308, 0], [1e308, 0]]].map((points) => {
+      map.fit(points);
+      return map.grid.getAttribute("d").split("M").length - 1;
+    });
+  });
+  assert.ok(lines[0] > 8 && lines[1] > 20, lines.join());
+  for (const count of lines) assert.ok(count <= 42, lines.join());
+});
+
 test("a clock that was set back begins the curve again", async () => {
   const [size, last] = await page.evaluate(async () => {
     const { Track } = await import("./samples.js");

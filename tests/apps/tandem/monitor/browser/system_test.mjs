@@ -79,6 +79,26 @@ test("the connections and active components are saved as lines of rtc.conf", asy
   assert.match(text, /\nmanager\.components\.preactivation: .*JoystickComp0/);
 });
 
+test("the failure of a part behind the answer of a command does not hide the answer", async () => {
+  const found = await page.evaluate(async () => {
+    const { jsonIn } = await import("./system/system.js");
+    return ['[\n  {\n    "a": [1]\n  }\n]\ntandem: no answer from [::1]:2809\n', "[]\ntandem: none}\n", '{"a": 1}', "[\n  1,\n"].map(jsonIn);
+  });
+  assert.deepEqual(found, [[{ a: [1] }], [], { a: 1 }, null]);
+});
+
+test("names that rtc.conf would read as something else are left out of the saved lines", async () => {
+  const text = await page.evaluate(async () => {
+    const { rtcConfOf } = await import("./system/system.js");
+    const port = (name, other, properties = {}) => ({ name, kind: "DataOutPort", connections: [{ id: name, with: [other], properties }] });
+    const component = (name, ports = []) => ({ model: "RTM", name, state: "ACTIVE", ports });
+    return rtcConfOf([component("A0", [port("A0.out", "B0.in", { "dataport.push_policy": "all" }), port("A0.more", "(unreachable)"), port("A0.wrong", "C0.in\nmanager.modules.preload: x.so")]),
+      component("B0"), component("C0\nmanager.modules.preload: x.so")]);
+  });
+  assert.equal(text, "manager.components.preconnect: A0.out?port=B0.in&push_policy=all\nmanager.components.preactivation: A0, B0\n" +
+    "# 3 connections or components are left out: rtc.conf cannot name them.\n");
+});
+
 test("a property is set, and undo sets the old value", async () => {
   await page.getByRole("button", { name: "Parameters of ControlComp", exact: true }).click();
   const gain = () => page.getByLabel("ratio_gain of property");

@@ -119,6 +119,19 @@ TEST_CASE("an inventory that changes, or whose head is wrong, is not read") {
     CHECK(reader.read(own_pid)->components.size() == 1);
 }
 
+TEST_CASE("an inventory that takes the place of another one is read") {
+    const std::string first = "component\tFirst\tT\t\t0\n", second = "component\tSecond\tT\t\t0\n";
+    InventoryReader reader;
+    {
+        const auto file = false_inventory(sound_head(4, first.size()), first);
+        REQUIRE(reader.look(own_pid));
+        CHECK(reader.read(own_pid)->components.at(0).name == "First");
+    }
+    const auto file = false_inventory(sound_head(4, second.size()), second);
+    REQUIRE(reader.look(own_pid));
+    CHECK(reader.read(own_pid)->components.at(0).name == "Second");
+}
+
 TEST_CASE("a host without a link is found by what it lists, and its use of the machine is read") {
     const int arm = 0;
     list_part(&arm, {"component", "Arm", "T", "", "0"});

@@ -135,6 +135,17 @@ TEST_CASE("pictures are recognized by their members, and read from their bytes")
     CHECK_FALSE(tandem::monitor::picture_in(raw, bytes));
 }
 
+TEST_CASE("a long name of a picture's format is cut") {
+    const auto type = tandem::wire::parse_signature("{format}s{width}i{height}i{data}ay");
+    std::vector<std::byte> bytes;
+    tandem::wire::CdrWriter out(bytes);
+    out.put_string(std::string(100'000, 'x'));
+    for (const std::uint32_t number : {1, 1, 0}) out.put(number); // the last one: no pixels
+    const auto picture = tandem::monitor::picture_in(type, bytes);
+    REQUIRE(picture);
+    CHECK(picture->format == std::string(64, 'x'));
+}
+
 TEST_CASE("a plot gets every message, with its number and a time that increases") {
     const Pair pair;
     const auto rings = add_ports(*pair.first, {"speed", "level"});
