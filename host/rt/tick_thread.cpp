@@ -135,17 +135,21 @@ void TickThread::note_lines(SharedTick& tick) {
     this_thread_lines = nullptr;
 }
 
-/// Runs one cycle, which begins `now`, and sets `now` to its end.
+/// Runs one cycle, which begins `now` or after its rehearsal, and sets `now` to its end.
 void TickThread::run_cycle(Lock& lock, const std::shared_ptr<SharedTick>& tick, std::int64_t& now) {
     tick->woken_ = false;
     running = tick.get();
     running_since = now;
     const bool notes_lines = tick->work_.rehearse && !tick->rests_ && (rounds + next) % rounds_per_note == 0;
     lock.unlock();
-    if (notes_lines) note_lines(*tick);
-    const auto after = tick->work_.cycle({planned, now, tick->overran_, tick->took_});
+    if (notes_lines) {
+        note_lines(*tick);
+        now = monotonic_ns(); // the rehearsal is no part of the cycle
+    }
+    const std::int64_t began = now;
+    const auto after = tick->work_.cycle({planned, began, tick->overran_, tick->took_});
     now = monotonic_ns();
-    const std::int64_t took = now - running_since;
+    const std::int64_t took = now - began;
     lock.lock();
     running = nullptr;
     tick->took_ = took;

@@ -23,15 +23,16 @@ double percentile(std::vector<double> values, double fraction);
 /// The time from JoystickComp's send of a reference to ControlComp's receive [us].
 struct LatencySample {
     double us = 0;
-    bool disturbed =
-        false; // another thread had the core of one of the two components for over 20 us in this tick
+    /// The core of one of the two components was taken for over 20 us in this tick.
+    bool disturbed = false;
 };
-/// Returns a sample of each received reference, in the order received. Only for real-time runs, in which both components use CLOCK_MONOTONIC.
+/// Returns a sample of each received reference, in the order received. Only for real-time runs, in which both components
+/// use CLOCK_MONOTONIC.
 std::vector<LatencySample> latencies(const std::vector<JoystickRecord>& joystick,
                                      const std::vector<ControlRecord>& control);
 
-/// Returns the latencies [us] of all samples, or only those of the undisturbed ones.
 enum class Samples { all, undisturbed };
+/// Returns the latencies [us] of all samples, or only those of the undisturbed ones.
 std::vector<double> values_us(const std::vector<LatencySample>& samples, Samples which = Samples::all);
 
 /// Returns the samples after the first second, in which the hosts are still starting; all of them if the run is shorter

@@ -13,8 +13,8 @@ namespace tandem::wheelchair {
 
 /// How much of a trace a follower keeps.
 struct TraceLimit {
-    std::size_t records =
-        0; ///< keeps at least this number of the newest records, and at most twice as many; 0: all
+    /// Keeps at least this number of the newest records, and at most twice as many; 0: all.
+    std::size_t records = 0;
     bool discard_files = false; ///< also frees the room of the others in the file
 };
 

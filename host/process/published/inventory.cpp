@@ -53,9 +53,9 @@ class Inventory {
         std::size_t at, bytes; ///< with the newline
     };
 
-    void overwrite(const Place& place, const std::string& line) {
+    void overwrite(const Place& place, std::string line) {
+        line.insert(line.size() - 1, place.bytes - line.size(), ' ');
         text_.replace(place.at, place.bytes, line);
-        text_.insert(place.at + line.size() - 1, place.bytes - line.size(), ' ');
         touch(place.at, place.bytes);
     }
 
@@ -68,7 +68,8 @@ class Inventory {
     }
 
     void append(const void* part, const std::string& line) {
-        if (unused_ > text_.size() / 2 || text_.size() + line.size() > Head::max_text_bytes) compact();
+        const bool has_room = text_.size() + line.size() <= Head::max_text_bytes;
+        if (unused_ > text_.size() / 2 || (unused_ > 0 && !has_room)) compact();
         if (text_.size() + line.size() > Head::max_text_bytes) {
             left_out_.insert(part);
             return;
@@ -88,7 +89,8 @@ class Inventory {
         }
         text_ = std::move(packed);
         unused_ = 0;
-        touch(0, text_.size());
+        changed_from_ = 0; // an earlier change of this text may lie beyond its new end
+        changed_to_ = text_.size();
     }
 
     void touch(std::size_t at, std::size_t bytes) {

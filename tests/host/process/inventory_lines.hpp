@@ -18,6 +18,7 @@ namespace tandem::test {
 struct InventoryRead {
     process::InventoryHead head{};      ///< of the last file
     std::multiset<std::string> lines{}; ///< of all files, without spaces at the end
+    std::string rest{};                 ///< bytes beyond the end of the text of the last file
 };
 
 /// Reads the inventories of this process. A library that lists parts has a file of its own.
@@ -35,6 +36,10 @@ inline InventoryRead read_inventory() {
         std::string text(read.head.text_bytes, '\0');
         REQUIRE(pread(file.get(), text.data(), text.size(), sizeof read.head) ==
                 static_cast<ssize_t>(text.size()));
+        read.rest.resize(InventoryHead::file_bytes - sizeof read.head - text.size());
+        REQUIRE(pread(file.get(), read.rest.data(), read.rest.size(),
+                      static_cast<off_t>(sizeof read.head + text.size())) ==
+                static_cast<ssize_t>(read.rest.size()));
         std::istringstream lines(text);
         for (std::string line; std::getline(lines, line);) {
             line.erase(line.find_last_not_of(' ') + 1);

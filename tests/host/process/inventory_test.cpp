@@ -50,6 +50,21 @@ TEST_CASE("the number of an inventory is even at rest, and changes only with the
     CHECK(read_inventory().head.sequence == before + 4);
 }
 
+TEST_CASE("a list that becomes shorter writes nothing beyond its end") {
+    const int arm = 0, old = 0, leg = 0;
+    list_part(&arm, {"component", "Arm"});
+    list_part(&old, {"component", std::string(100, 'o')});
+    list_part(&leg, {"component", std::string(1000, 'l')});
+    unlist_part(&old);
+    list_part(&leg, {"component", std::string(1001, 'l')}); // closes the gaps
+    const auto read = read_inventory();
+    CHECK(read.lines == Lines{"component\tArm", "component\t" + std::string(1001, 'l')});
+    // The end of the longer list, as it was.
+    CHECK(read.rest.find_first_not_of(std::string("l\n\0", 3)) == std::string::npos);
+    unlist_part(&leg);
+    unlist_part(&arm);
+}
+
 TEST_CASE("an inventory stays small while its parts change, and counts parts without room") {
     const int arm = 0;
     for (std::size_t length = 1; length < 3000; ++length)

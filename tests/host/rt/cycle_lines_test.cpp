@@ -30,19 +30,22 @@ TEST_CASE("the lines of a cycle have a limit, and only a rehearsal that collects
 }
 
 TEST_CASE("a shared tick rehearses its cycle once in 64, and its cycles are no rehearsals") {
-    std::atomic<int> cycles{0}, rehearsals{0}, wrong{0};
+    std::atomic<int> cycles{0}, rehearsals{0}, wrong{0}, too_early{0};
+    std::int64_t rehearsed = 0;
     const auto is_rehearsal = [] {
         return tandem::rt::rehearsing() && tandem::rt::this_thread_lines != nullptr;
     };
     const auto tick = SharedTick::start({1ms, {}, {}},
-                                        {[&](const tandem::rt::ArrivedTick&) {
+                                        {[&](const tandem::rt::ArrivedTick& arrived) {
                                              wrong += is_rehearsal() ? 1 : 0;
+                                             too_early += arrived.now < rehearsed ? 1 : 0;
                                              ++cycles;
                                              return SharedTick::Next::tick;
                                          },
                                          [&] {
                                              wrong += is_rehearsal() ? 0 : 1;
                                              ++rehearsals;
+                                             rehearsed = tandem::rt::monotonic_ns();
                                          },
                                          "cell", [](const std::string&) {}},
                                         SharedTick::Next::tick);
@@ -52,4 +55,5 @@ TEST_CASE("a shared tick rehearses its cycle once in 64, and its cycles are no r
     CHECK(rehearsals >= cycles / 64 - 1);
     CHECK(rehearsals <= cycles / 64 + 1);
     CHECK(wrong == 0);
+    CHECK(too_early == 0); // a rehearsal is no part of the cycle's duration
 }

@@ -66,7 +66,7 @@ bool RTObject_impl::addNamed(const char* name, PortBase& port) {
         port.setPortConnectListenerHolder(&m_portConnectListeners);
         return true;
     }
-    tandem::process::unlist_part(&port);
+    if (m_portAdmin.getPort(port.getName()) != &port) tandem::process::unlist_part(&port);
     RTC_ERROR(("there is already a port %s; the second one is not added", name));
     return false;
 }

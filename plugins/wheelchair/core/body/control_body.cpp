@@ -80,7 +80,8 @@ void ControlBody::tick(ControlPorts& ports) {
                    poll.at, static_cast<double>(poll.count), wheels_.sequence, wheels_.stamp,
                    law_.filtered_direction_deg(), static_cast<double>(law_.state()), voltage.left,
                    voltage.right, voltage.brake ? 1.0 : 0.0,
-                   std::max(core_wait_.seconds_since_last_call(), poll.longest_pause)});
+                   // In this order, a NaN of the kernel's count leaves the pause.
+                   std::max(poll.longest_pause, core_wait_.seconds_since_last_call())});
     ++tick_;
 }
 

@@ -52,7 +52,7 @@ TEST_CASE("the two ports of a connection list the same id until it ends") {
     CHECK(connections_of("Accumulator0", "in")->empty());
 }
 
-TEST_CASE("a port that its component removes is listed no more") {
+TEST_CASE("a port that its component removes is no longer listed") {
     ManagerFixture fixture;
     auto& counter = fixture.create<Counter>("Counter");
     counter.removeOutPort(counter.out_);
