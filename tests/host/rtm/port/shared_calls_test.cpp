@@ -243,7 +243,7 @@ TEST_CASE("A service call through shared memory has the time limit of service ca
 }
 
 TEST_CASE("Service calls go by the ORB while calls whose time is over keep the queue full") {
-    const Conversation conversation({"manager.service_call_timeout:1"});
+    const Conversation conversation({"manager.service_call_timeout:3"});
     const auto talk = conversation.talk();
     std::vector<std::thread> threads;
     for (int i = 0; i < 16; ++i)

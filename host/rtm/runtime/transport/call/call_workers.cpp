@@ -114,8 +114,7 @@ struct CallWorkers::State : std::enable_shared_from_this<CallWorkers::State> {
     }
     void run() {
         pthread_setname_np(pthread_self(), "tandem-calls");
-        const omni_thread::ensure_self
-            known_to_orb; // for call_object(); ends before the ORB can be destroyed
+        const omni_thread::ensure_self known_to_orb; // which cannot be destroyed before this ends
         for (;;) {
             ++idle;
             auto call = calls.take(threads > kept_threads ? idle_time : shm::longest_wait);
