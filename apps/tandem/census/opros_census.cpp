@@ -44,18 +44,12 @@ bool contains_component(const std::vector<fs::path>& files) {
     });
 }
 
-// Returns the folder of the component whose profile belongs to `folder`. Workspaces have one folder with the profiles of
-// all components, whose folders have their names.
-fs::path component_folder(const fs::path& folder, const std::string& name) {
-    if (contains_source(list_files(folder)) || contains_source(list_files(folder / "src"))) return folder;
+// Returns the sources below the folder that define a component.
+std::vector<fs::path> find_entries(const fs::path& folder) {
     std::vector<fs::path> entries;
     for (const auto& file : list_files_below(folder))
         if (is_source(file) && defines_function(read_text(file), "getComponent")) entries.push_back(file);
-    if (entries.size() < 2) return folder;
-    for (const auto& entry : entries)
-        for (auto at = entry.parent_path(); at != folder; at = at.parent_path())
-            if (at.filename() == name) return at;
-    return folder;
+    return entries;
 }
 
 /// Finds the components of a folder. Several copies of a profile are one component.
@@ -70,7 +64,7 @@ class Finder {
         auto candidate = read_candidate(
             file, place == "profile" || place == "profiles" ? parent.parent_path() : parent, profile);
         if (!candidate) return;
-        candidate->folder = component_folder(candidate->folder, candidate->name);
+        candidate->folder = find_folder(candidate->folder, candidate->name);
         if (!contains_component(list_files_below(candidate->folder))) {
             ++without_source_;
             return;
@@ -87,6 +81,20 @@ class Finder {
     std::vector<Candidate> found;
 
   private:
+    // Returns the folder of the component whose profile belongs to `folder`. Workspaces have one folder with the profiles of
+    // all components, whose folders have their names.
+    fs::path find_folder(const fs::path& folder, const std::string& name) {
+        if (contains_source(list_files(folder)) || contains_source(list_files(folder / "src"))) return folder;
+        auto known = entries_.find(folder);
+        if (known == entries_.end()) known = entries_.emplace(folder, find_entries(folder)).first;
+        if (known->second.size() < 2) return folder;
+        for (const auto& entry : known->second)
+            for (auto at = entry.parent_path(); at != folder; at = at.parent_path())
+                if (at.filename() == name) return at;
+        return folder;
+    }
+
+    std::map<fs::path, std::vector<fs::path>> entries_; ///< by the folder; reading all its sources takes long
     std::map<fs::path, std::vector<engine::ComponentProfile>> profiles_; ///< by the component's folder
     std::size_t& without_source_;
 };

@@ -13,7 +13,6 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <filesystem>
 #include <memory>
 #include <sstream>
 #include <string>
@@ -194,7 +193,7 @@ void HttpSession::send_recording(const Request& request) {
         return refuse(status::forbidden,
                       "expected the token printed by tandem monitor --control, as ?token=...");
     const std::string name = path_of(request).substr(recordings_path.size());
-    const auto path = find_recording(std::filesystem::current_path(), name);
+    const auto path = find_recording(".", name); // current_path() throws if the folder was removed
     const auto download = std::make_shared<Download>();
     beast::error_code failure;
     if (path) download->response.body().open(path->c_str(), beast::file_mode::scan, failure);
