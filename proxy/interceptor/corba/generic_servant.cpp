@@ -13,27 +13,9 @@
 #include <algorithm>
 #include <array>
 #include <string_view>
-#include <vector>
 
 namespace tandem::interceptor {
 namespace {
-
-/// The ids that the ORB lets pass; any other user exception becomes CORBA::UNKNOWN. No allocation for a few.
-class ExceptionIds {
-  public:
-    explicit ExceptionIds(const wire::Operation& operation) : count_(operation.exceptions.size()) {
-        if (count_ > few_.size()) many_.resize(count_);
-        const char** id = ids();
-        for (const auto& exception : operation.exceptions) *id++ = exception.id.c_str();
-    }
-    const char** ids() { return many_.empty() ? few_.data() : many_.data(); }
-    int count() const { return static_cast<int>(count_); }
-
-  private:
-    std::size_t count_;
-    std::array<const char*, 8> few_;
-    std::vector<const char*> many_;
-};
 
 /// Converts the arguments or the results of a call. A value that cannot cross is CORBA::MARSHAL for the caller.
 template <class Function>
@@ -49,9 +31,11 @@ auto convert(CallTarget& target, const char* name, bool results, const Function&
 /// One call from another process on its way through the ORB, which calls these functions in the order arguments, run, results.
 class Upcall final : public omniCallDescriptor {
   public:
-    Upcall(const char* name, const wire::Operation& operation, CallTarget& target, ExceptionIds& exceptions)
+    /// `exceptions`: the ids of user exceptions that the ORB lets pass; any other becomes CORBA::UNKNOWN.
+    Upcall(const char* name, const wire::Operation& operation, CallTarget& target,
+           std::span<const char*> exceptions)
         : omniCallDescriptor(&Upcall::run, name, std::char_traits<char>::length(name) + 1, operation.oneway,
-                             exceptions.ids(), exceptions.count(), 1),
+                             exceptions.data(), static_cast<int>(exceptions.size()), 1),
           operation_(operation), target_(target) {}
 
     // Arguments are converted before the target is called, so a malformed request never reaches it.
@@ -142,10 +126,19 @@ _CORBA_Boolean GenericServant::_dispatch(omniCallHandle& handle) {
         execute(*operation, *call);
         return 1;
     }
-    ExceptionIds exceptions(*operation);
-    Upcall upcall(name, *operation, target_, exceptions);
+    Upcall upcall(name, *operation, target_, exception_ids(*operation));
     handle.upcall(this, upcall);
     return 1;
+}
+
+/// The ORB reads the list after _dispatch() has ended by an exception, so it is not in the frame of the call.
+std::span<const char*> GenericServant::exception_ids(const wire::Operation& operation) {
+    if (operation.exceptions.empty()) return {};
+    const std::lock_guard lock(exception_ids_mutex_);
+    const auto [known, is_new] = exception_ids_.try_emplace(&operation);
+    if (is_new)
+        for (const auto& exception : operation.exceptions) known->second.push_back(exception.id.c_str());
+    return known->second;
 }
 
 bool GenericServant::call_from_here(omniCallDescriptor& call) {

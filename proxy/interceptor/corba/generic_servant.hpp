@@ -7,8 +7,11 @@
 #include <omniORB4/CORBA.h>
 
 #include <cstddef>
+#include <map>
+#include <mutex>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace tandem::interceptor {
 
@@ -58,11 +61,14 @@ class GenericServant : public virtual PortableServer::ServantBase {
 
   private:
     void execute(const wire::Operation& operation, omniCallDescriptor& call);
+    std::span<const char*> exception_ids(const wire::Operation& operation);
     void* _ptrToInterface(const char* repository_id) override;
     const char* _mostDerivedRepoId() override;
 
     std::string repository_id_;
     CallTarget& target_;
+    std::mutex exception_ids_mutex_;
+    std::map<const wire::Operation*, std::vector<const char*>> exception_ids_; // of the target's operations
 };
 
 } // namespace tandem::interceptor
