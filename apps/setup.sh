@@ -10,7 +10,7 @@ say() { printf '== %s\n' "$*"; }
 # describe_distribution [OS_RELEASE]
 # Prints one line if this is a distribution on which nobody runs the tests. OS_RELEASE: a file as os-release(5).
 describe_distribution() ( # in a subshell: the file sets many variables
-    VERSION_ID=
+    ID='' VERSION_ID='' PRETTY_NAME='this system'
     . "${1:-/etc/os-release}"
     case $ID-$VERSION_ID in debian-12|debian-13) exit 0 ;; esac
     say "Tandem is not tested on $PRETTY_NAME; docs/platforms.md says what is known"
