@@ -14,6 +14,9 @@ const setBack = 50;
 /** A port that is silent for longer than this, and than several of its periods, has a gap in its curves. */
 const silentGap = 1000, silentPeriods = 5;
 
+/** A robot that turns by 1 rad/s has a heading that runs as a clock does. */
+const isOfPose = (name) => /(^|\.)(x|y|z|r|p|va|heading|theta|yaw|pitch|roll)(_deg|_rad)?$/i.test(name);
+
 /** Returns the kind of a number by its name: `time`, `sequence`, or `signal`. */
 export function kindByName(name) {
   if (/(^|\.)(tm|stamp|timestamp|time)(\.|$)/i.test(name)) return 'time';
@@ -118,7 +121,7 @@ export class Track {
   /** Returns `time`, `sequence` or `signal`; null if the values have not shown it yet. */
   kindOf(name) {
     const named = kindByName(name);
-    if (named !== 'signal') return named;
+    if (named !== 'signal' || isOfPose(name)) return named;
     if (this.kinds.has(name)) return this.kinds.get(name);
     const from = Math.max(0, this.size - 60), part = (all) => all.subarray(from, this.size);
     const values = this.columns.get(name), kind = values ? kindByValues(part(this.times), part(values), part(this.sequences)) : null;

@@ -86,7 +86,10 @@ boost::asio::ip::address local_address(const boost::asio::ip::tcp::socket& socke
 
 /// A file on its way to a client, which has `write_bound` for each part.
 struct Download {
-    http::response<http::file_body> response{status::ok, 11};
+    /// `file`: open, because the serializer takes its size at once.
+    explicit Download(http::file_body::value_type file) : response(status::ok, 11, std::move(file)) {}
+
+    http::response<http::file_body> response;
     http::response_serializer<http::file_body> serializer{response};
 };
 
@@ -194,12 +197,13 @@ void HttpSession::send_recording(const Request& request) {
                       "expected the token printed by tandem monitor --control, as ?token=...");
     const std::string name = path_of(request).substr(recordings_path.size());
     const auto path = find_recording(".", name); // current_path() throws if the folder was removed
-    const auto download = std::make_shared<Download>();
+    http::file_body::value_type file;
     beast::error_code failure;
-    if (path) download->response.body().open(path->c_str(), beast::file_mode::scan, failure);
+    if (path) file.open(path->c_str(), beast::file_mode::scan, failure);
     if (!path || failure)
         return refuse(status::not_found,
                       "no such recording in the folder in which tandem monitor was started");
+    const auto download = std::make_shared<Download>(std::move(file));
     auto& response = download->response;
     response.set(http::field::content_type, "application/octet-stream");
     response.set(http::field::content_disposition, "attachment; filename=\"" + name + "\"");

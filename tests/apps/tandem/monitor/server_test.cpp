@@ -35,7 +35,7 @@ TEST_CASE("the page and its scripts come from the server alone") {
         for (auto found = import.find(module.body, at); !found.empty(); found = import.find(module.body, at))
             if (modules.insert(found[1]).second) to_look_at.push_back(found[1]);
     }
-    CHECK(modules.size() == 19);
+    CHECK(modules.size() == 20);
     // A reverse proxy may show the page in a folder, so that no address begins at the root.
     std::size_t begin = 0;
     CHECK(Pattern("(href|src)=\"/").find(page.body, begin).empty());

@@ -32,7 +32,7 @@ const curvesAre = (names, card = 0) => page.waitForFunction(([wanted, at]) =>
 [JSON.stringify(names), card]);
 const bar = (text) => page.locator(".plot-card").first().locator(".plot-bar").getByRole("button", { name: text });
 const isDrawn = (card = 0) => page.waitForFunction((at) => {
-  const canvas = document.querySelectorAll(".plot-card")[at]?.querySelector("canvas");
+  const canvas = document.querySelectorAll(".plot-card")[at]?.querySelector(".plot canvas");
   return canvas && canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data.some((byte) => byte !== 0);
 }, card);
 
