@@ -26,6 +26,8 @@ constexpr std::size_t max_threads = max_shared_calls + max_oneway_calls;
 constexpr std::chrono::milliseconds pause{100};
 constexpr std::chrono::seconds idle_time{1}; // after which further threads end
 
+} // namespace
+
 /// Keeps the order of oneway calls: a call of a thread begins after the oneway calls that the thread has made before.
 /// [any-thread]
 class OnewayOrder {
@@ -84,8 +86,6 @@ class OnewayOrder {
     std::uint64_t highest_ = 0;
     std::map<CORBA::ULongLong, Count> threads_; // those whose oneway calls have not all ended
 };
-
-} // namespace
 
 struct CallWorkers::State : std::enable_shared_from_this<CallWorkers::State> {
     using Room = std::counting_semaphore<max_oneway_calls>;
