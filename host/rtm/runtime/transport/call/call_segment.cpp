@@ -9,7 +9,8 @@ using tandem::shm::Segment;
 using tandem::shm::Side;
 
 constexpr char queue_name[] = "calls";
-constexpr std::uint64_t call_contract = 0x43414c4c'00000001; // "CALL", and the version of what is in the segment
+constexpr std::uint64_t call_contract =
+    0x43414c4c'00000001; // "CALL", and the version of what is in the segment
 // Messages of the ORB have the same limit (-ORBgiopMaxMsgSize). Long ones take memory during the call only.
 constexpr tandem::shm::CallQueueOptions queue_options{
     .callers = Side::first, .slots = max_shared_calls, .max_bytes = std::size_t{64} << 20};
