@@ -38,9 +38,9 @@ class ControlComp : public Component, private ControlPorts {
         });
     }
 
-    ReturnType onStop() override { return stop(); }
-    ReturnType onReset() override { return stop(); }
-    ReturnType onError() override { return stop(); }
+    ReturnType onStop() override { return stop_chair(); }
+    ReturnType onReset() override { return stop_chair(); }
+    ReturnType onError() override { return stop_chair(); }
     ReturnType onRecover() override { return OPROS_SUCCESS; }
     ReturnType onDestroy() override { return OPROS_SUCCESS; }
 
@@ -53,7 +53,7 @@ class ControlComp : public Component, private ControlPorts {
     }
 
     // This component's last command to HWComp. Without it, the watchdog would act 50 ms later.
-    ReturnType stop() override {
+    ReturnType stop_chair() {
         if (body_) body_->deactivate(*this);
         return OPROS_SUCCESS;
     }

@@ -44,11 +44,11 @@ class HWComp : public Component, public IChair, private HWPorts {
         });
     }
 
-    ReturnType onStop() override { return stop(); }
-    ReturnType onReset() override { return stop(); }
-    ReturnType onError() override { return stop(); }
-    ReturnType onRecover() override { return stop(); }
-    ReturnType onDestroy() override { return stop(); }
+    ReturnType onStop() override { return stop_chair(); }
+    ReturnType onReset() override { return stop_chair(); }
+    ReturnType onError() override { return stop_chair(); }
+    ReturnType onRecover() override { return stop_chair(); }
+    ReturnType onDestroy() override { return stop_chair(); }
 
   private:
     void portSetup() {
@@ -60,7 +60,7 @@ class HWComp : public Component, public IChair, private HWPorts {
     }
 
     // Stops safely without any other component and without a tick.
-    ReturnType stop() override {
+    ReturnType stop_chair() {
         if (body_) body_->stop();
         return OPROS_SUCCESS;
     }

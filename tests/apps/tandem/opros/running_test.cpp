@@ -20,7 +20,7 @@ using tandem::test::tandem_program;
 
 namespace {
 
-/// Hides the hosts of other tests, and this test's from them.
+/// Hides this test's hosts from others. Hosts without such a folder are seen nevertheless, so some cases run alone.
 struct OwnRuntimeFolder {
     OwnRuntimeFolder() {
         ::chmod(folder.path().c_str(), 0700);
@@ -96,7 +96,7 @@ TEST_CASE("a component of several hosts is named with its host") {
               (host["pid"] == second.process.pid() ? "INACTIVE" : "ACTIVE"));
 }
 
-TEST_CASE("a name that no running component has is refused in one line") {
+TEST_CASE("a name that no running component has is refused in one line", "[alone]") {
     const OwnRuntimeFolder runtime;
     CHECK_THAT(opros({"list"}).errors, Contains("no opros_host of this user runs"));
     CHECK_THAT(opros({"info", "M"}).errors, Contains("no opros_host of this user runs"));
@@ -111,7 +111,8 @@ TEST_CASE("a name that no running component has is refused in one line") {
 }
 
 TEST_CASE(
-    "a component that hangs, and a host that is stopped, end a command after its time limit in one line") {
+    "a component that hangs, and a host that is stopped, end a command after its time limit in one line",
+    "[alone]") {
     const OwnRuntimeFolder runtime;
     Host host("execute hangs");
     const Result hangs = opros({"stop", "M", "--timeout", "0.5"});
@@ -125,7 +126,7 @@ TEST_CASE(
     ::kill(host.process.pid(), SIGCONT);
 }
 
-TEST_CASE("a host that was killed is not listed, and its socket is removed") {
+TEST_CASE("a host that was killed is not listed, and its socket is removed", "[alone]") {
     const OwnRuntimeFolder runtime;
     Host host;
     host.process.kill();
