@@ -15,6 +15,8 @@ class BenchCellComp : public Component {
         addPort("in", &in_);
         addPort("out", &out_);
     }
+    ReturnType onInitialize() override { return OPROS_SUCCESS; }
+    ReturnType onDestroy() override { return OPROS_SUCCESS; }
     ReturnType onStart() override {
         sends_ = getId() == "BenchCell0" && tandem::bench::Cells::all().data_moves();
         return OPROS_SUCCESS;
