@@ -119,7 +119,7 @@ std::string table_1(const std::vector<LatencyRow>& rows, Samples which) {
                        sampled, "", "average", "std.dev.", "min", "max", lines);
 }
 
-std::string whole_run(const std::vector<LatencyRow>& rows) {
+std::string after_start(const std::vector<LatencyRow>& rows) {
     std::string out = fmt::format("After the first second [us]; references of the whole run\n  {:<8} {:>9} "
                                   "{:>9} {:>9} {:>9} {:>8} {:>9} {:>6}\n",
                                   "", "p50", "p99", "p99.9", "max", "sent", "received", "lost");
@@ -147,7 +147,7 @@ std::string without_disturbed(const std::vector<LatencyRow>& rows) {
 } // namespace
 
 std::string latency_tables(const std::vector<LatencyRow>& rows) {
-    std::string out = table_1(rows, Samples::all) + whole_run(rows);
+    std::string out = table_1(rows, Samples::all) + after_start(rows);
     const auto median = [](const LatencyRow& r) {
         return percentile(values_us(without_start(r.latencies)), 0.5);
     };
@@ -155,7 +155,8 @@ std::string latency_tables(const std::vector<LatencyRow>& rows) {
         out += fmt::format("  p50 of {} minus p50 of {}: {:+.2f} us\n", rows.back().configuration,
                            rows[i].configuration, median(rows.back()) - median(rows[i]));
     const auto has_disturbed = [](const LatencyRow& r) {
-        return std::any_of(r.latencies.begin(), r.latencies.end(), [](auto s) { return s.disturbed; });
+        const auto samples = without_start(r.latencies);
+        return std::any_of(samples.begin(), samples.end(), [](auto s) { return s.disturbed; });
     };
     if (std::any_of(rows.begin(), rows.end(), has_disturbed)) out += without_disturbed(rows);
     return out;

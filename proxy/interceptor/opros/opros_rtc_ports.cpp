@@ -134,7 +134,7 @@ void OprosRtc::set_ports(const std::vector<link::Port>& ports) {
     }
     // Service ports can be called from the activation on, which may be over.
     if (added && state() == RTC::ACTIVE_STATE) m_portAdmin.activatePorts();
-    following.unlock(); // whoever ends this RTC does not wait for the peer
+    following.unlock(); // the end of this RTC does not wait for the peer
     if (added) send_interfaces();
 }
 

@@ -16,7 +16,7 @@ inline Result build(std::vector<std::string> arguments) {
     return tandem_program(std::move(arguments));
 }
 
-/// Writes a component in the style of v1: exported with a definition only, IComponent, the profile in a folder of its own.
+/// Writes a component in the style of v1: exported with a definition only, IComponent, the profile in a separate folder.
 /// `body`: statements of its constructor.
 inline void old_component(const Folder& folder, const std::string& body) {
     folder.write("neighbour/Gain.h", "inline double gain() { return 3; }\n");
