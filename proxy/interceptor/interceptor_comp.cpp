@@ -192,6 +192,7 @@ void InterceptorComp::disconnect_all() {
     if (link_) link_->close(); // first: its threads use everything below
     shared_ports_.reset();
     opros_rtcs_.reset();
+    if (activation_) activation_->stop();
     activation_.reset(); // destroys the RTCs of remote_rtcs_
     remote_rtcs_.reset();
     if (data_mirrors_) data_mirrors_->close();

@@ -29,6 +29,8 @@ class RtcActivation {
     std::string reset() { return rtcs_.reset(); }
     /// Deactivates the RTCs that the link has activated, without waiting for slow ones. Call it when the peer has gone.
     void peer_lost();
+    /// Call it before the destructor if the events of the RTCs use this object.
+    void stop() { rtcs_.stop(); }
     bool are_all_active() const { return rtcs_.are_all_active(); }
     /// Returns whether the peer wants the RTCs to be active.
     bool is_activated_by_link() const { return activated_by_link_; }

@@ -9,7 +9,9 @@
 namespace tandem::interceptor {
 
 // The threads first: what they still execute may be a transition of any of these RTCs.
-RtcGroup::~RtcGroup() {
+RtcGroup::~RtcGroup() { stop(); }
+
+void RtcGroup::stop() {
     for (auto& member : members_) member.thread->stop();
 }
 

@@ -35,6 +35,8 @@ class RtcGroup {
     /// Resets the RTCs that are in ERROR.
     std::string reset();
     bool are_all_active() const;
+    /// Ends the threads of the RTCs: their events, and transitions that have not begun, do not come any more.
+    void stop();
 
   private:
     struct Member {
