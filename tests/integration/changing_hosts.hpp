@@ -17,6 +17,8 @@ struct ChangingHosts : TwoHosts {
         set_manager_port(port);
         set_strict(false); // connections wait for their ports
         set_rtc("LateRtc");
+        append_to_rtc_conf(
+            "test.LateRtc.port.inport.back.buffer.length: 1000\n"); // a busy machine skips no number
         add_component("Tally", "TallyComp");
     }
     tandem::test::Result run(std::vector<std::string> arguments) const {

@@ -31,6 +31,7 @@ TEST_CASE("messages of several senders reach several receivers of both sides onc
     hosts.leave_out_talker_and_rtc();
     hosts.set_rtc("SwarmRtc");
     hosts.add_rtc("SwarmRtc");
+    hosts.append_to_rtc_conf("test.SwarmRtc.port.inport.in.buffer.length: 1000\n"); // all messages have room
     hosts.set_interceptor("rtc=SwarmRtc0;SwarmRtc1");
     std::string connections;
     for (const std::string component : {"First", "Second"}) {

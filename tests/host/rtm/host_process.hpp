@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // rtm_host as a child process of a test. Every wait has a time limit.
 #pragma once
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <fcntl.h>
@@ -106,6 +107,22 @@ class HostProcess {
     std::size_t thread_count() const {
         const std::filesystem::directory_iterator all("/proc/" + std::to_string(pid_) + "/task");
         return static_cast<std::size_t>(std::distance(begin(all), end(all)));
+    }
+    /// Waits until no thread of the process runs or wants a processor: it has finished what it was asked for.
+    bool wait_until_idle() const {
+        for (int i = 0; i < 10000; ++i) {
+            bool busy = false;
+            for (const auto& task :
+                 std::filesystem::directory_iterator("/proc/" + std::to_string(pid_) + "/task")) {
+                std::ifstream stat(task.path() / "stat");
+                std::string line;
+                std::getline(stat, line);
+                busy = busy || line.substr(std::min(line.size(), line.rfind(')'))).starts_with(") R");
+            }
+            if (!busy) return true;
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+        return false;
     }
     /// CPU time so far of all threads, also of those that have ended, in ticks of sysconf(_SC_CLK_TCK): 10 ms.
     long cpu_ticks() const {

@@ -111,6 +111,7 @@ TEST_CASE("Many such messages cost neither threads nor memory") {
         if (i % 100 == 0) threads = std::max(threads, other.host.thread_count());
     }
     CHECK(threads <= most_threads);
+    REQUIRE(other.host.wait_until_idle()); // until it has closed these connections, it may refuse another one
     ManagerFixture fixture;
     RTM::Manager_var manager = other.manager(fixture.manager().theORB());
     CHECK_FALSE(manager->is_master());
@@ -167,6 +168,9 @@ TEST_CASE("At the limit, the connection that has been idle for longest gives way
         use(all.back());
     }
     use(all.front());
+    REQUIRE(
+        other.host
+            .wait_until_idle()); // a connection is idle only when its thread has sent the reply and waits again
     const int newcomer = sockets.open(other.port);
     REQUIRE(send_all(newcomer, question));
     CHECK(gets_reply(newcomer));
