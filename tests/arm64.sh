@@ -45,9 +45,11 @@ shift
 setting=/proc/sys/fs/binfmt_misc
 mount -t binfmt_misc none $setting
 if [ ! -e $setting/qemu-aarch64 ]; then
-    trap 'echo -1 > $setting/qemu-aarch64' EXIT
-    echo ':qemu-aarch64:M::\x7fELF\x02\x01\x01\x00\x00\x00\x00\x00\x00\x00\x00\x00\x02\x00\xb7\x00:\xff\xff\xff\xff\xff\xff\xff\x00\xff\xff\xff\xff\xff\xff\xff\xff\xfe\xff\xff\xff:/usr/bin/qemu-aarch64-static:OCPF' \
-        > $setting/register
+    trap 'echo -1 > $setting/tandem-arm64' EXIT
+    if [ ! -e $setting/tandem-arm64 ]; then # else a run that was killed has left it
+        echo ':tandem-arm64:M::\x7fELF\x02\x01\x01\x00\x00\x00\x00\x00\x00\x00\x00\x00\x02\x00\xb7\x00:\xff\xff\xff\xff\xff\xff\xff\x00\xff\xff\xff\xff\xff\xff\xff\xff\xfe\xff\xff\xff:/usr/bin/qemu-aarch64-static:OCPF' \
+            > $setting/register
+    fi
 fi
 cmake --preset arm64 -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=32 >/dev/null
 programs=("$@")
