@@ -16,15 +16,16 @@ if [ -L "$target" ] || [ ! -O "$target" ]; then
 fi
 command -v debootstrap >/dev/null || { echo "tests/arm64.sh: debootstrap not found; apt install debootstrap" >&2; exit 1; }
 
-if [ ! -e "$target/ready" ]; then
-    debootstrap --variant=minbase bookworm "$target" http://deb.debian.org/debian
+# `ready` has the dependencies that are installed.
+if ! cmp -s "$top/apps/dependencies.txt" "$target/ready"; then
+    [ -e "$target/ready" ] || debootstrap --variant=minbase bookworm "$target" http://deb.debian.org/debian
     cat > "$target/prepare.sh" <<'PREPARE'
 set -eu
 export DEBIAN_FRONTEND=noninteractive
 dpkg --add-architecture arm64
 apt-get update -qq
 packages="g++-aarch64-linux-gnu qemu-user-static libstdc++-12-dev:arm64"
-for package in $(sed -n -e '/^\[build\]/,/^\[components\]/p' -e '/^\[packages\]/,/^\[machines\]/p' dependencies.txt | sed -n 's/^\([a-z0-9][^ ]*\) .*/\1/p'); do
+for package in $(awk '/^\[/ { group = $1 } group ~ /^\[(build|npm|packages)\]$/ && /^[a-z]/ { print $1 }' dependencies.txt); do
     # Libraries are for arm64, programs for this machine. Packages of headers alone have no architecture.
     case $package in lib*-dev|catch2) if apt-cache show "$package:arm64" >/dev/null 2>&1; then package=$package:arm64; fi ;; esac
     packages="$packages $package"
@@ -33,7 +34,7 @@ apt-get install -y -qq --no-install-recommends $packages >/dev/null
 PREPARE
     cp "$top/apps/dependencies.txt" "$target/"
     chroot "$target" sh /prepare.sh
-    touch "$target/ready"
+    cp "$top/apps/dependencies.txt" "$target/ready"
 fi
 
 cat > "$target/build_and_test.sh" <<'BUILD'
