@@ -16,15 +16,16 @@ if [ -L "$target" ] || [ ! -O "$target" ]; then
 fi
 command -v debootstrap >/dev/null || { echo "tests/arm64.sh: debootstrap not found; apt install debootstrap" >&2; exit 1; }
 
-if [ ! -e "$target/ready" ]; then
-    debootstrap --variant=minbase bookworm "$target" http://deb.debian.org/debian
+# `ready` has the dependencies that are installed.
+if ! cmp -s "$top/apps/dependencies.txt" "$target/ready"; then
+    [ -e "$target/ready" ] || debootstrap --variant=minbase bookworm "$target" http://deb.debian.org/debian
     cat > "$target/prepare.sh" <<'PREPARE'
 set -eu
 export DEBIAN_FRONTEND=noninteractive
 dpkg --add-architecture arm64
 apt-get update -qq
 packages="g++-aarch64-linux-gnu qemu-user-static libstdc++-12-dev:arm64"
-for package in $(sed -n -e '/^\[build\]/,/^\[components\]/p' -e '/^\[packages\]/,/^\[machines\]/p' dependencies.txt | sed -n 's/^\([a-z0-9][^ ]*\) .*/\1/p'); do
+for package in $(awk '/^\[/ { group = $1 } group ~ /^\[(build|npm|packages)\]$/ && /^[a-z]/ { print $1 }' dependencies.txt); do
     # Libraries are for arm64, programs for this machine. Packages of headers alone have no architecture.
     case $package in lib*-dev|catch2) if apt-cache show "$package:arm64" >/dev/null 2>&1; then package=$package:arm64; fi ;; esac
     packages="$packages $package"
@@ -33,7 +34,7 @@ apt-get install -y -qq --no-install-recommends $packages >/dev/null
 PREPARE
     cp "$top/apps/dependencies.txt" "$target/"
     chroot "$target" sh /prepare.sh
-    touch "$target/ready"
+    cp "$top/apps/dependencies.txt" "$target/ready"
 fi
 
 cat > "$target/build_and_test.sh" <<'BUILD'
@@ -45,9 +46,11 @@ shift
 setting=/proc/sys/fs/binfmt_misc
 mount -t binfmt_misc none $setting
 if [ ! -e $setting/qemu-aarch64 ]; then
-    trap 'echo -1 > $setting/qemu-aarch64' EXIT
-    echo ':qemu-aarch64:M::\x7fELF\x02\x01\x01\x00\x00\x00\x00\x00\x00\x00\x00\x00\x02\x00\xb7\x00:\xff\xff\xff\xff\xff\xff\xff\x00\xff\xff\xff\xff\xff\xff\xff\xff\xfe\xff\xff\xff:/usr/bin/qemu-aarch64-static:OCPF' \
-        > $setting/register
+    trap 'echo -1 > $setting/tandem-arm64' EXIT
+    if [ ! -e $setting/tandem-arm64 ]; then # else a run that was killed has left it
+        echo ':tandem-arm64:M::\x7fELF\x02\x01\x01\x00\x00\x00\x00\x00\x00\x00\x00\x00\x02\x00\xb7\x00:\xff\xff\xff\xff\xff\xff\xff\x00\xff\xff\xff\xff\xff\xff\xff\xff\xfe\xff\xff\xff:/usr/bin/qemu-aarch64-static:OCPF' \
+            > $setting/register
+    fi
 fi
 cmake --preset arm64 -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=32 >/dev/null
 programs=("$@")

@@ -97,6 +97,7 @@ FileDescriptor open_segment(const std::string& path, const Access& access) {
     FileDescriptor file(::open(path.c_str(), O_RDWR | safe_open));
     if (!file) {
         const int code = errno;
+        if (code == ENOENT) return file; // another process may name a file now
         const auto status = status_of(path);
         if (!status || !access.counts(*status)) return file;
         throw Error(path + ": cannot be opened (" + errno_text(code) + "), expected " + describe(access) +

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# What apps/setup.sh says of distributions.   distribution_test.sh ROOT
+# What scripts say of other distributions, and of packages that cannot be installed.   distribution_test.sh ROOT
 set -euo pipefail
 . "$1/apps/setup.sh"
 
@@ -14,3 +14,12 @@ for version in 12 13; do [ -z "$(described debian $version "Debian $version")" ]
 
 if said=$(PATH=/nowhere install_missing_packages 2>&1); then fail "a system without apt-get is accepted"; fi
 case $said in 'apps/setup.sh: no apt-get on this system; '*) ;; *) fail "a system without apt-get prints: $said" ;; esac
+
+# No compiler for arm64, and none can be installed.
+stubs=$(mktemp -d)
+trap 'rm -rf "$stubs"' EXIT
+for program in dpkg-query apt-get sudo; do
+    printf '#!/bin/sh\nexit 1\n' > "$stubs/$program"
+    chmod +x "$stubs/$program"
+done
+if PATH=$stubs:$PATH "$1/tests/cross_compile.sh" >/dev/null 2>&1; then fail "cross_compile.sh succeeds without a compiler"; fi

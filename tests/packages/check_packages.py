@@ -17,7 +17,7 @@ PACKAGES = {"libtandem-opros", "libtandem-rtm", "tandem-bench", "tandem-opros-de
 # What a package must depend on besides what dpkg-shlibdeps finds. Own packages fit the same version only.
 NEEDS = {
     "libtandem-opros": ["libstdc++6 (>= "],
-    "libtandem-rtm": ["libomniorb4-2 (>= "],
+    "libtandem-rtm": ["libomniorb4-"],
     "tandem-bench": ["tandem-tools (= VERSION)"],
     "tandem-runtime": ["libtandem-opros (= VERSION)", "libtandem-rtm (= VERSION)", "libpugixml1v5", "adduser", "acl"],
     "tandem-tools": ["tandem-runtime (= VERSION)", "libsystemd0"],

@@ -141,6 +141,30 @@ TEST_CASE("a side that needs a larger arena makes the next generation large enou
     CHECK(first->add_blob("b", 200 * 1024).size() == 200 * 1024);
 }
 
+TEST_CASE("a file whose name appears and disappears while it is opened is open or absent, and no error") {
+    const Link link;
+    const auto created = join(link, Side::first);
+    const std::string path = segment_path(link.name, 2);
+    std::atomic<bool> done{false};
+    std::thread changes([&] {
+        while (!done) {
+            std::filesystem::create_hard_link(created->path(), path);
+            std::filesystem::remove(path);
+        }
+    });
+    std::size_t errors = 0;
+    for (std::size_t i = 0; i < stress(100'000); ++i) {
+        try {
+            open_segment(path, access_of_this_process(""));
+        } catch (const Error&) {
+            ++errors;
+        }
+    }
+    done = true;
+    changes.join();
+    CHECK(errors == 0);
+}
+
 TEST_CASE("if many processes join at once, exactly one pair meets") {
     const std::size_t rounds = stress(10, 200);
     for (std::size_t round = 0; round < rounds; ++round) {

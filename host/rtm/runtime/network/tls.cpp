@@ -5,6 +5,7 @@
 #include <boost/dll/shared_library.hpp>
 #include <cerrno>
 #include <cstring>
+#include <omniORB4/CORBA.h>
 #include <stdexcept>
 #include <unistd.h>
 
@@ -29,11 +30,14 @@ std::vector<std::string> load_tls(const TlsFiles& files) {
     // Never unloaded, because omniORB keeps the objects that the library registers.
     static auto* const library = new boost::dll::shared_library;
     try {
-        library->load("libomnisslTP4.so.2", boost::dll::load_mode::rtld_now |
-                                                boost::dll::load_mode::rtld_global |
-                                                boost::dll::load_mode::search_system_folders);
+        // Version 4.2.5 is 0x040205f1. The second number is also that of the libraries.
+        const auto version = std::to_string((omniORB::versionHex() >> 16) & 0xff);
+        library->load("libomnisslTP4.so." + version, boost::dll::load_mode::rtld_now |
+                                                         boost::dll::load_mode::rtld_global |
+                                                         boost::dll::load_mode::search_system_folders);
     } catch (const std::exception& error) {
-        throw std::runtime_error(std::string("TLS: ") + error.what() + "; install libomniorb4-2");
+        throw std::runtime_error(std::string("TLS: ") + error.what() +
+                                 "; install omniORB with its TLS transport");
     }
     tls_is_loaded = true;
     return {"-ORBsslCAFile", files.authority, "-ORBsslKeyFile", files.key, "-ORBsslKeyPassword",
