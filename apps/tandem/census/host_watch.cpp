@@ -38,14 +38,11 @@ struct Published {
 };
 
 template <class File>
-std::vector<std::unique_ptr<File>> read_files(pid_t pid) {
-    std::vector<std::unique_ptr<File>> found;
+std::vector<std::unique_ptr<const File>> read_files(pid_t pid) {
+    std::vector<std::unique_ptr<const File>> found;
     for (const auto& file :
-         monitor::open_memory_files(static_cast<std::uint32_t>(pid), File::file_name, sizeof(File), 8)) {
-        auto copy = std::make_unique<File>();
-        if (pread(file.get(), copy.get(), sizeof(File), 0) == static_cast<ssize_t>(sizeof(File)))
-            found.push_back(std::move(copy));
-    }
+         monitor::open_memory_files(static_cast<std::uint32_t>(pid), File::file_name, sizeof(File)))
+        if (auto copy = monitor::read_memory_file<File>(file)) found.push_back(std::move(copy));
     return found;
 }
 

@@ -6,7 +6,6 @@
 #include <zstd.h>
 
 namespace tandem::mcap {
-namespace {
 
 /// Frees a context of a C library with the library's function.
 template <auto release>
@@ -15,6 +14,8 @@ struct Release {
 };
 template <typename Context, auto release>
 using ContextPointer = std::unique_ptr<Context, Release<release>>;
+
+namespace {
 
 constexpr int zstd_level = 1; // the fastest regular level
 constexpr std::size_t first_growth = std::size_t{256} * 1024;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/monitor/link_reader.hpp"
 
+#include "apps/tandem/monitor/host_files/process_files.hpp"
 #include "apps/tandem/output/format.hpp"
 #include "proxy/link/protocol/link_error.hpp"
 #include "proxy/link/protocol/published_table.hpp"
@@ -11,7 +12,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <fstream>
 #include <set>
 
 namespace tandem::monitor {
@@ -23,14 +23,6 @@ using shm::Side;
 constexpr auto recent_ns = static_cast<std::uint64_t>(recent_s * 1e9);
 /// Averaging time of rates: long enough for ports with 1 Hz.
 constexpr std::uint64_t rate_ns = 2'000'000'000;
-
-/// Returns the program's name from the kernel; empty if this machine has no such process.
-std::string program_of(std::uint32_t pid) {
-    std::ifstream file("/proc/" + std::to_string(pid) + "/comm");
-    std::string name;
-    std::getline(file, name);
-    return replace_nonprintable(name);
-}
 
 /// Returns 0 if a counter decreases, because the other process may write any value.
 std::uint64_t increase(std::uint64_t from, std::uint64_t to) { return to > from ? to - from : 0; }

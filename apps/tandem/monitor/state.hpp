@@ -95,7 +95,7 @@ struct LinkState {
     std::string reason;   ///< why it is not readable
     std::string damage{}; ///< the first object of a readable link that cannot be read; empty: none
     std::uint64_t memory_bytes = 0;
-    SideState sides[2];
+    std::array<SideState, 2> sides;
     std::vector<PortState> ports;
     std::vector<CallQueueState> call_queues;
     std::vector<SharedPort> shared_ports;

@@ -29,8 +29,6 @@ class ChairService : public POA_Wheelchair::Chair, public virtual PortableServer
     std::atomic<bool> emergency_{false}; // set by the service, read in each tick
 };
 
-} // namespace
-
 /// HWBody with the ports, configuration sets and life cycle of an RTC.
 class HWComp : public RTC::DataFlowComponentBase, private HWPorts {
   public:
@@ -92,6 +90,8 @@ class HWComp : public RTC::DataFlowComponentBase, private HWPorts {
     component::Parameters parameters_;
     std::unique_ptr<HWBody> body_;
 };
+
+} // namespace
 
 extern "C" void HWCompInit(RTC::Manager* manager) {
     coil::Properties profile =

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
-#include <fstream>
 #include <set>
 
 namespace tandem::monitor {
@@ -47,13 +46,6 @@ std::vector<std::uint32_t> own_processes() {
             pids.push_back(pid);
     }
     return pids;
-}
-
-std::string program_of(std::uint32_t pid) {
-    std::ifstream file("/proc/" + std::to_string(pid) + "/comm");
-    std::string name;
-    std::getline(file, name);
-    return command::replace_nonprintable(name);
 }
 
 } // namespace

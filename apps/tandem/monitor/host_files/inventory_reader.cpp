@@ -19,8 +19,6 @@ namespace {
 using Head = process::InventoryHead;
 using Fields = std::vector<std::string>;
 
-constexpr std::size_t max_files = 8; ///< of a process: one for each library that lists parts
-
 /// The ends of a connection that a line of its own lists.
 struct Connection {
     std::string from_component, from_port, to_component, to_port;
@@ -126,7 +124,7 @@ bool InventoryReader::read_file(File& file) {
 }
 
 bool InventoryReader::look(std::uint32_t pid) {
-    auto files = open_memory_files(pid, Head::file_name, Head::file_bytes, max_files);
+    auto files = open_memory_files(pid, Head::file_name, Head::file_bytes);
     if (files.empty()) return false;
     Process& process = processes_[pid];
     const bool same = std::equal(

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <fstream>
 #include <set>
 
 namespace tandem::monitor {
@@ -23,8 +24,16 @@ std::vector<RunningHost> running_hosts(const State& state) {
     return hosts;
 }
 
-std::vector<process::FileDescriptor> open_memory_files(std::uint32_t pid, const char* name, std::size_t size,
-                                                       std::size_t most) {
+std::string program_of(std::uint32_t pid) {
+    std::ifstream file(fmt::format("/proc/{}/comm", pid));
+    std::string name;
+    std::getline(file, name);
+    return command::replace_nonprintable(name);
+}
+
+std::vector<process::FileDescriptor> open_memory_files(std::uint32_t pid, const char* name,
+                                                       std::size_t size) {
+    constexpr std::size_t most = 8;
     std::vector<process::FileDescriptor> files;
     std::set<ino_t> known; // a process may have several descriptors of a file
     const std::string wanted = fmt::format("/memfd:{} (deleted)", name);

@@ -5,12 +5,10 @@
 
 #include <dirent.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <memory>
 #include <set>
 
 namespace tandem::monitor {
@@ -20,18 +18,6 @@ using process::ComponentState;
 using process::ComponentStates;
 using process::NoticeKind;
 using process::Notices;
-
-constexpr std::size_t max_files = 8; ///< of a process: one for each library that publishes
-
-/// Returns nullptr unless the file is one of this kind.
-template <class File>
-std::unique_ptr<const File> read_file(const process::FileDescriptor& file) {
-    auto copy = std::make_unique<File>();
-    if (pread(file.get(), copy.get(), sizeof *copy, 0) != static_cast<ssize_t>(sizeof *copy) ||
-        std::memcmp(copy->magic, File::magic_text, sizeof copy->magic) != 0)
-        return nullptr;
-    return copy;
-}
 
 /// Returns why the open files of a process cannot be listed; empty if they can, or if the process is gone.
 std::string listing_error(std::uint32_t pid) {
@@ -64,11 +50,10 @@ void add_components(const ComponentStates& file, std::uint64_t now_ns,
 
 void StatusReader::look(Process& process, std::uint32_t pid, std::uint64_t now_ns) {
     if (now_ns < process.next_look_ns) return;
-    process.next_look_ns = now_ns + look_pause_ns;
+    process.next_look_ns = now_ns + file_search_pause_ns;
     process.unseen = listing_error(pid);
-    process.components =
-        open_memory_files(pid, ComponentStates::file_name, sizeof(ComponentStates), max_files);
-    process.notices = open_memory_files(pid, Notices::file_name, sizeof(Notices), max_files);
+    process.components = open_memory_files(pid, ComponentStates::file_name, sizeof(ComponentStates));
+    process.notices = open_memory_files(pid, Notices::file_name, sizeof(Notices));
 }
 
 void StatusReader::read_process(std::uint32_t pid, const std::string& program, State& state,
@@ -77,7 +62,7 @@ void StatusReader::read_process(std::uint32_t pid, const std::string& program, S
     look(process, pid, now_ns);
     std::map<std::string, ComponentStatus> states;
     for (const auto& descriptor : process.components)
-        if (const auto file = read_file<ComponentStates>(descriptor)) {
+        if (const auto file = read_memory_file<ComponentStates>(descriptor)) {
             add_components(*file, now_ns, states);
             if (file->left_out != 0)
                 state.unseen.push_back(
@@ -87,7 +72,7 @@ void StatusReader::read_process(std::uint32_t pid, const std::string& program, S
     for (auto& [name, component] : states)
         state.components.push_back({program, pid, name, component.state, component.in_cycle_s});
     for (const auto& descriptor : process.notices)
-        if (const auto file = read_file<Notices>(descriptor))
+        if (const auto file = read_memory_file<Notices>(descriptor))
             for (const auto& place : file->place)
                 if (place.kind != 0)
                     state.notices.push_back(
@@ -116,13 +101,10 @@ void StatusReader::note_unseen(const State& state, std::vector<std::string>& uns
 }
 
 void StatusReader::read(State& state, std::uint64_t now_ns) {
-    std::set<std::uint32_t> present;
-    for (const auto& [pid, program] : running_hosts(state)) {
-        present.insert(pid);
+    read_running_hosts(state, processes_, [&](std::uint32_t pid, const std::string& program) {
         read_process(pid, program, state, now_ns);
-    }
+    });
     note_unseen(state, state.unseen);
-    std::erase_if(processes_, [&](const auto& process) { return present.count(process.first) == 0; });
 }
 
 } // namespace tandem::monitor

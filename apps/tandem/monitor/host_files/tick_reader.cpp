@@ -3,13 +3,10 @@
 
 #include "apps/tandem/monitor/host_files/process_files.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <optional>
-#include <set>
 
 namespace tandem::monitor {
 namespace {
@@ -103,16 +100,14 @@ void TickReader::read_process(std::uint32_t pid, const std::string& program, Sta
                               std::uint64_t now_ns) {
     Process& process = processes_[pid];
     if (now_ns >= process.next_look_ns) {
-        process.next_look_ns = now_ns + look_pause_ns;
-        process.pages = open_memory_files(pid, rt::TickPage::file_name, sizeof(rt::TickPage), max_pages);
+        process.next_look_ns = now_ns + file_search_pause_ns;
+        process.pages = open_memory_files(pid, rt::TickPage::file_name, sizeof(rt::TickPage));
     }
     for (std::size_t page = 0; page < process.pages.size(); ++page) {
-        rt::TickPage copy{};
-        if (pread(process.pages[page].get(), &copy, sizeof copy, 0) != static_cast<ssize_t>(sizeof copy) ||
-            std::memcmp(copy.magic, rt::TickPage::magic_text, sizeof copy.magic) != 0)
-            continue;
+        const auto copy = read_memory_file<rt::TickPage>(process.pages[page]);
+        if (!copy) continue;
         for (std::size_t slot = 0; slot < rt::TickPage::slots; ++slot) {
-            const rt::TickSlot& now = copy.slot[slot];
+            const rt::TickSlot& now = copy->slot[slot];
             auto& samples = samples_[{pid, page, slot}];
             const bool same = !samples.empty() && samples.back().second.period_ns == now.period_ns &&
                               samples.back().second.ticks <= now.ticks &&
@@ -133,14 +128,11 @@ void TickReader::read_process(std::uint32_t pid, const std::string& program, Sta
 }
 
 void TickReader::read(State& state, std::uint64_t now_ns) {
-    std::set<std::uint32_t> present;
-    for (const auto& [pid, program] : running_hosts(state)) {
-        present.insert(pid);
+    read_running_hosts(state, processes_, [&](std::uint32_t pid, const std::string& program) {
         read_process(pid, program, state, now_ns);
-    }
-    std::erase_if(processes_, [&](const auto& process) { return present.count(process.first) == 0; });
+    });
     std::erase_if(samples_,
-                  [&](const auto& sample) { return present.count(std::get<0>(sample.first)) == 0; });
+                  [&](const auto& sample) { return processes_.count(std::get<0>(sample.first)) == 0; });
 }
 
 } // namespace tandem::monitor

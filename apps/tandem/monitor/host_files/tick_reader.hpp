@@ -25,7 +25,6 @@ class TickReader {
     void read(State& state, std::uint64_t now_ns);
 
   private:
-    static constexpr std::size_t max_pages = 8; ///< of a process: one for each library with ticks
     using Key = std::tuple<std::uint32_t, std::size_t, std::size_t>; ///< pid, page, slot
     struct Process {
         std::vector<process::FileDescriptor> pages{};

@@ -15,7 +15,8 @@
 namespace tandem::monitor {
 namespace {
 
-constexpr std::uint64_t look_pause_ns = 900'000'000; // clock ticks of 10 ms would make a shorter share coarse
+constexpr std::uint64_t usage_pause_ns =
+    900'000'000; // clock ticks of 10 ms would make a shorter share coarse
 
 struct Stat {
     std::string name;
@@ -87,7 +88,7 @@ std::optional<HostUsage> UsageReader::read_host(std::uint32_t pid, std::uint64_t
 void UsageReader::read(std::vector<HostState>& hosts, std::uint64_t now_ns) {
     const bool looks = now_ns >= next_look_ns_ || looks_ < 2; // shares need two looks
     if (looks) {
-        next_look_ns_ = now_ns + look_pause_ns;
+        next_look_ns_ = now_ns + usage_pause_ns;
         ++looks_;
         looked_.clear();
         next_.clear();

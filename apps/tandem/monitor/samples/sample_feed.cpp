@@ -23,7 +23,7 @@ namespace tandem::monitor {
 namespace {
 
 /// 25 times a second. A look takes a quarter of the time between two at most, so that the monitor keeps serving pages.
-constexpr std::chrono::milliseconds look_pause{40};
+constexpr std::chrono::milliseconds poll_pause{40};
 constexpr RoundBounds look_bounds{std::size_t{8} << 20, 10'000'000};
 /// Between two messages of a port that are sent as a whole, for drawings.
 constexpr std::uint64_t whole_pause_ns = 100'000'000;
@@ -111,7 +111,7 @@ void SampleFeed::look() {
         followed.message = nullptr;
         followed.frame = nullptr;
     }
-    timer_.expires_after(look_pause);
+    timer_.expires_after(poll_pause);
     timer_.async_wait([this](const boost::system::error_code& aborted) {
         if (!aborted) look();
     });

@@ -18,6 +18,7 @@
 #include <random>
 #include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace tandem::monitor {
@@ -27,7 +28,9 @@ struct SamplePort {
     std::string link;
     shm::Side owner{};
     std::string name;
-    auto operator<=>(const SamplePort&) const = default;
+    bool operator<(const SamplePort& other) const {
+        return std::tie(link, owner, name) < std::tie(other.link, other.owner, other.name);
+    }
 };
 
 /// Receives the samples of the ports that it follows. [one thread]
