@@ -10,6 +10,8 @@
 namespace tandem::plugin {
 namespace {
 
+namespace fs = std::filesystem;
+
 // Boost.DLL's own error only says that loading failed. dlerror() names the missing symbol or file.
 std::string dlerror_text() {
     const char* message = dlerror();
@@ -18,17 +20,13 @@ std::string dlerror_text() {
     return text;
 }
 
-} // namespace
-
 // glibc's dlopen() ends the process if a static constructor throws. The sanitizers' dlopen() passes the exception on,
 // and this function catches it.
-Library::Library(const std::filesystem::path& file)
-    : path_(std::filesystem::absolute(file)), library_(std::make_unique<boost::dll::shared_library>()) {
-    read_contents(path_); // throws for a damaged file, because loading one could end the process
-    boost::dll::fs::error_code refused;
+void load_library(boost::dll::shared_library& library, const fs::path& file, boost::dll::load_mode::type mode,
+                  boost::dll::fs::error_code& refused) {
     std::string thrown;
     try {
-        library_->load(path_, refused, boost::dll::load_mode::rtld_now | boost::dll::load_mode::rtld_local);
+        library.load(file, refused, mode | boost::dll::load_mode::rtld_local);
     } catch (const std::exception& error) {
         thrown = std::string(": ") + error.what();
     } catch (...) {
@@ -36,20 +34,39 @@ Library::Library(const std::filesystem::path& file)
     }
     if (!thrown.empty())
         throw Error(Reason::load_failed,
-                    "library " + path_.string() + " threw an exception in its static constructors" + thrown);
+                    "library " + file.string() + " threw an exception in its static constructors" + thrown);
+}
+
+} // namespace
+
+Library::Library(const fs::path& file, UndefinedFunctions undefined)
+    : path_(fs::absolute(file)), library_(std::make_unique<boost::dll::shared_library>()) {
+    read_contents(path_); // throws for a damaged file, because loading one could end the process
+    boost::dll::fs::error_code refused;
+    load_library(*library_, path_, boost::dll::load_mode::rtld_now, refused);
+    if (!refused) return;
+    const std::string reason = dlerror_text();
+    if (undefined == UndefinedFunctions::accept && reason.find("undefined symbol: ") != std::string::npos) {
+        refused.clear();
+        load_library(*library_, path_, boost::dll::load_mode::rtld_lazy, refused);
+        undefined_ = reason;
+    }
     if (refused)
-        throw Error(Reason::load_failed,
-                    "library " + path_.string() + " cannot be loaded: " + dlerror_text());
+        throw Error(Reason::load_failed, "library " + path_.string() + " cannot be loaded: " + reason);
 }
 
 Library::~Library() = default;
 
-std::shared_ptr<Library> Library::load(const std::filesystem::path& file) {
-    return std::shared_ptr<Library>(new Library(file));
+std::shared_ptr<Library> Library::load(const fs::path& file, UndefinedFunctions undefined) {
+    return std::shared_ptr<Library>(new Library(file, undefined));
 }
 
-bool Library::is_loaded(const std::filesystem::path& file) {
-    void* const handle = dlopen(std::filesystem::absolute(file).c_str(), RTLD_LAZY | RTLD_NOLOAD);
+std::shared_ptr<Library> Library::load(const fs::path& file) {
+    return load(file, UndefinedFunctions::refuse);
+}
+
+bool Library::is_loaded(const fs::path& file) {
+    void* const handle = dlopen(fs::absolute(file).c_str(), RTLD_LAZY | RTLD_NOLOAD);
     if (handle) dlclose(handle);
     return handle != nullptr;
 }

@@ -16,6 +16,12 @@ class shared_library;
 
 namespace tandem::plugin {
 
+/// What to do with a library that calls functions which no library defines.
+enum class UndefinedFunctions {
+    refuse,
+    accept, ///< as OpenRTM-aist (RTLD_LAZY): the process ends with exit code 127 when one of them is called
+};
+
 /// A loaded library. It is unloaded with the last pointer to it or to an instance from share_instance().
 class Library {
   public:
@@ -23,6 +29,7 @@ class Library {
 
     /// Checks the file, then loads it. Throws the errors of read_elf(), or Error load_failed with the dynamic
     /// linker's reason. [any-thread]
+    static std::shared_ptr<Library> load(const std::filesystem::path& file, UndefinedFunctions undefined);
     static std::shared_ptr<Library> load(const std::filesystem::path& file);
 
     /// Returns true if any code has loaded the file in this process. [any-thread]
@@ -38,13 +45,17 @@ class Library {
 
     const std::filesystem::path& path() const noexcept { return path_; }
 
+    /// Returns the dynamic linker's line about the first undefined function of an accepted library; "" if there is none.
+    const std::string& undefined() const noexcept { return undefined_; }
+
   private:
-    explicit Library(const std::filesystem::path& file);
+    Library(const std::filesystem::path& file, UndefinedFunctions undefined);
     void* address(const std::string& name) const;
 
     std::filesystem::path path_;
     // a pointer, because the header takes a second to compile
     std::unique_ptr<boost::dll::shared_library> library_;
+    std::string undefined_;
 };
 
 /// Wraps an instance that the library has created. The last owner calls `release`. Only then is the library unloaded,

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <regex>
 #include <sstream>
+#include <utility>
 
 namespace tandem::command {
 namespace {
@@ -105,9 +106,26 @@ class Scanner {
         std::smatch found;
         std::string meant = to_posix_path(name);
         if (std::regex_match(meant, found, versioned)) meant = found[1].str();
+        if (auto skeleton = skeleton_without_services(name); !skeleton.empty()) meant = std::move(skeleton);
         if (meant == name) return find_idl(name);
         result.forwards[name] = meant;
         resolve(meant, place);
+    }
+
+    // Components that RTCBuilder makes for tests include XSVC_impl.h, the implementation of services, also for an X.idl that
+    // only has data types. Returns the header with the types.
+    std::string skeleton_without_services(const std::string& name) const {
+        static const std::regex implementation("(\\w+)SVC_impl\\.h");
+        static const std::regex interface("\\binterface\\b");
+        static const std::set<std::string> of_openrtm{"BasicDataType", "ExtendedDataTypes",
+                                                      "InterfaceDataTypes"};
+        std::smatch found;
+        if (!std::regex_match(name, found, implementation)) return "";
+        const std::string base = found[1];
+        if (of_openrtm.count(base) != 0) return "rtm/idl/" + base + "Skel.h";
+        const auto idl = idl_file("", base + ".idl");
+        const bool has_services = idl.empty() || std::regex_search(strip_comments(read_text(idl)), interface);
+        return has_services ? "" : base + "Skel.h";
     }
 
     // Returns the file whose path ends with the name, preferably in the same case.

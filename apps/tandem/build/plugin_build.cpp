@@ -4,7 +4,7 @@
 #include "apps/tandem/build/build_folder.hpp"
 #include "apps/tandem/build/first_error.hpp"
 #include "apps/tandem/build/folder/checkout.hpp"
-#include "apps/tandem/build/folder/cmake_lists.hpp"
+#include "apps/tandem/build/folder/project_files.hpp"
 #include "apps/tandem/build/folder/source_text.hpp"
 #include "apps/tandem/build/include_scan.hpp"
 #include "apps/tandem/build/missing_names.hpp"
@@ -420,7 +420,7 @@ fs::path build_plugin(const std::string& model, const std::string& name, const E
                   {},
                   {},
                   {}};
-    plugin.definitions = plugin.sources.target.sources.empty() ? read_cmake_lists(options.folder).definitions
+    plugin.definitions = plugin.sources.target.sources.empty() ? read_definitions(options.folder)
                                                                : plugin.sources.target.definitions;
     plugin.problem = projects.problem();
     for (const auto& source : plugin.sources.sources) require_cmake_path(source);

@@ -49,12 +49,12 @@ std::string implementation_id(const std::vector<std::string>& tokens, const fs::
 
 // Adds the modules of a file. Skips a source with main(), which is a program that tandem rtm build does not build.
 void add_modules(const fs::path& file, std::map<std::string, Module>& modules) {
-    const auto all = tokenize(strip_comments(read_text(file)));
-    // Collected separately, because a main() after the module function invalidates them.
+    const auto text = read_text(file);
+    if (defines_main(text)) return;
+    const auto all = tokenize(strip_comments(text));
     std::vector<Module> found_here;
     std::set<std::string> of_programs; // functions passed to the manager of a program
     for (std::size_t i = 1; i < all.size(); ++i) {
-        if (matches_at(all, i, {"main", "("}) && all[i - 1] == "int") return;
         // Matches void XInit(RTC::Manager* ...: a definition or a declaration, with or without extern "C".
         const std::string& word = all[i];
         if (all[i - 1] == "setModuleInitProc" && word == "(" && i + 1 < all.size())

@@ -194,6 +194,13 @@ TEST_CASE("a header is searched in the whole checkout by the longest matching pa
     CHECK(find_definitions(list_files_below(checkout), "robot::addPort(char const*)") ==
           std::vector<fs::path>{checkout / "lib/Port.cpp"});
     CHECK(find_definitions(list_files_below(checkout), "robot::removePort(char const*)").empty());
+    folder.write("lib/Solver.cpp",
+                 "int solve(int a) { return a; }\n#ifndef NO_MAIN\nint main() {}\n#endif\n");
+    folder.write("lib/Program.cpp",
+                 "int stop() { return 1; }\n#ifdef _WIN32\n#else\nint main() {}\n#endif\n");
+    CHECK(find_definitions(list_files_below(checkout), "arm::solve(int)") ==
+          std::vector<fs::path>{checkout / "lib/Solver.cpp"});
+    CHECK(find_definitions(list_files_below(checkout), "stop()").empty());
     for (const char* symbol : {"vtable for Box<int (*)(int)>", "vtable for f()::Local", "vtable for ", "("})
         CHECK(find_definitions(list_files_below(checkout), symbol).empty());
     // The compiler looks for a name with "../" beside the folder that it searches.
@@ -235,6 +242,27 @@ TEST_CASE("unconditional definitions of the project's CMakeLists.txt are used") 
           Names{"ROBOT_VERSION=\"3.1\"", "IOB=4", "NAME=\"3\"", "PLAIN"});
     fs::remove(folder.path() / ".git"); // the folders above are not the component's
     CHECK(read_cmake_lists(rtc).definitions == Names{"PLAIN"});
+}
+
+TEST_CASE("what a configure script defines on every machine is used without CMakeLists.txt") {
+    const Folder folder;
+    fs::create_directories(folder.path() / ".git");
+    folder.write("configure.ac",
+                 "# AC_DEFINE([COMMENT])\ndnl AC_DEFINE([NOTE])\n"
+                 "AC_INIT([Robot Ears], [2.1],\n  [me@example.org])\nAM_INIT_AUTOMAKE([1.10 tar-ustar])\n"
+                 "PKG_CHECK_MODULES([GUI], [gui],\n [AC_DEFINE([HAVE_GUI], [1], [if it is there])])\n"
+                 "case ${host_os} in\n  *mingw*) AC_DEFINE([ON_WINDOWS]);;\nesac\n"
+                 "if test x = y; then AC_DEFINE([CHOSEN]); fi\n"
+                 "AC_DEFINE([FLOATING_POINT], [], [Compile as floating-point]) dnl (not fixed)\n"
+                 "AC_DEFINE(CHANNELS, 8, [how many (at most)])\nAC_DEFINE([NAME], [\"ears\"])\n"
+                 "AC_DEFINE([FULL])\nAC_DEFINE([PLACE], [\"$prefix\"])\n");
+    const auto rtc = folder.path() / "src";
+    folder.write("src/Ears.cpp", "");
+    CHECK(read_definitions(rtc) == Names{"PACKAGE_NAME=\"Robot Ears\"", "PACKAGE_VERSION=\"2.1\"",
+                                         "PACKAGE=\"robot-ears\"", "VERSION=\"2.1\"",
+                                         "FLOATING_POINT=", "CHANNELS=8", "NAME=\"ears\"", "FULL=1"});
+    folder.write("src/CMakeLists.txt", "add_definitions(-DPLAIN)\n");
+    CHECK(read_definitions(rtc) == Names{"PLAIN"});
 }
 
 TEST_CASE("an error about a header or a library is followed by a remedy") {

@@ -62,3 +62,12 @@ TEST_CASE("a missing file, a file that is no library and an unresolved symbol gi
     CHECK(reason_of(UNDEFINED_LIBRARY) == Reason::load_failed);
     CHECK_THROWS_WITH(Library::load(UNDEFINED_LIBRARY), Catch::Contains("nobody_defines_this"));
 }
+
+// As OpenRTM-aist loads modules. A variable that is missing is needed at once.
+TEST_CASE("a library that calls an undefined function is loaded on request, and the function is named") {
+    const auto library = Library::load(UNDEFINED_LIBRARY, tandem::plugin::UndefinedFunctions::accept);
+    CHECK(library->has("answer"));
+    CHECK_THAT(library->undefined(),
+               Catch::Contains(UNDEFINED_LIBRARY) && Catch::Contains("nobody_defines_this"));
+    CHECK(Library::load(GOOD_LIBRARY, tandem::plugin::UndefinedFunctions::accept)->undefined().empty());
+}

@@ -108,6 +108,22 @@ TEST_CASE("rtm_host refuses a bad module in one line that names it") {
     CHECK_THAT(result.errors, Catch::Contains(bad));
 }
 
+// As a module of OpenRTM-aist whose project forgets a source: OpenRTM-aist runs it.
+TEST_CASE("rtm_host runs a component whose module calls an undefined function, and names the function") {
+    const Folder folder;
+    const auto conf = folder.write("rtc.conf", "manager.modules.load_path: " ZOO "/rtm\n"
+                                               "manager.modules.preload: rtc_lacks_a_function.so\n"
+                                               "manager.components.precreate: Incomplete\n"
+                                               "manager.components.preactivation: Incomplete0\n");
+    const auto result = run(std::string(RTM_HOST) + " -f " + conf.string());
+    INFO(result.errors);
+    CHECK(result.exit_code == 0);
+    CHECK(result.lines_with("nobody_defines_this") == 1);
+    CHECK_THAT(result.errors,
+               Catch::Contains("rtc_lacks_a_function.so: undefined symbol: ") &&
+                   Catch::Contains(" is loaded, but a call of this function will end the host"));
+}
+
 TEST_CASE("rtm_host warns of a component whose destructor hangs, runs it and leaves without it") {
     const Folder folder;
     const auto conf = folder.write("rtc.conf", "manager.modules.load_path: " ZOO "/rtm\n"

@@ -32,7 +32,6 @@ const std::vector<BadLibrary> both_models{
     {"entry_overflows_the_stack", {" in INIT"}},
     {"entry_exits", {"ended the process in INIT with exit code 3: usage: component DEVICE"}},
     {"entry_is_no_function", {" in INIT"}},
-    {"symbol_missing", {"cannot be loaded", "nobody_defines_this"}},
     {"library_missing", {"cannot be loaded", "libzoo_another_library.so"}},
 };
 const std::vector<BadLibrary> opros_only{
@@ -40,6 +39,7 @@ const std::vector<BadLibrary> opros_only{
     {"destructor_crashes", {" in releaseComponent()"}},
     {"static_destructor_crashes", {" in its static destructors"}},
     {"no_entry", {"does not export getComponent"}},
+    {"symbol_missing", {"cannot be loaded", "nobody_defines_this"}},
 };
 const std::vector<BadLibrary> rtm_only{
     {"rtc_constructor_throws", {"component type Thrower cannot be created: no gripper"}},
@@ -50,6 +50,8 @@ const std::vector<BadLibrary> rtm_only{
      {"did not return from the constructor of Waiter within 1 s"},
      true},
     {"no_entry", {"does not export no_entryInit"}},
+    {"symbol_missing",
+     {"ended the process in INIT with exit code 127", "undefined symbol: ", "nobody_defines_this"}},
 };
 
 std::string refusal(const BadLibrary& bad, const std::string& model) {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/build/folder/project_files.hpp"
+#include "apps/tandem/build/folder/autoconf.hpp"
+#include "apps/tandem/build/folder/checkout.hpp"
 #include "apps/tandem/build/folder/cmake_lists.hpp"
 #include "apps/tandem/build/folder/source_text.hpp"
 
@@ -133,6 +135,16 @@ std::vector<fs::path> read_include_dirs(const fs::path& folder) {
                 if (word.rfind("-I", 0) == 0) add(word.substr(2));
     }
     return dirs;
+}
+
+std::vector<std::string> read_definitions(const fs::path& folder) {
+    auto ancestors = ancestors_in_checkout(folder);
+    for (auto at = ancestors.rbegin(); at != ancestors.rend(); ++at) {
+        if (is_file(*at / "CMakeLists.txt")) return read_cmake_lists(folder).definitions;
+        for (const char* name : {"configure.ac", "configure.in"})
+            if (is_file(*at / name)) return read_autoconf_definitions(*at / name);
+    }
+    return {};
 }
 
 } // namespace tandem::command

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads the project files in a component's folder (CMakeLists.txt, makefiles, Visual C++ projects) without
+// Reads the project files in a component's folder (CMakeLists.txt, makefiles, configure.ac, Visual C++ projects) without
 // running them. Skips what cannot be read without running them.
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace tandem::command {
@@ -22,5 +23,9 @@ std::vector<SourceList> read_source_lists(const std::filesystem::path& folder);
 /// Returns the existing include folders that the folder's makefiles and Visual C++ projects name, as absolute
 /// paths.
 std::vector<std::filesystem::path> read_include_dirs(const std::filesystem::path& folder);
+
+/// Returns the definitions, NAME or NAME=VALUE, that the CMakeLists.txt of the folder and of those above it in the checkout
+/// make; without a CMakeLists.txt, those of the nearest configure.ac.
+std::vector<std::string> read_definitions(const std::filesystem::path& folder);
 
 } // namespace tandem::command

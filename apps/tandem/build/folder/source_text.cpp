@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <fstream>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 
 namespace tandem::command {
@@ -24,8 +25,38 @@ bool is_ignored_folder(const fs::path& folder) {
 
 bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
-bool contains_main(const std::string& code) {
+bool names_main(const std::string& code) {
     return code.find("int main(") != std::string::npos || code.find("int main (") != std::string::npos;
+}
+
+// Returns the preprocessor directive in the line, without # and the blanks after it; "" for other lines.
+std::string directive_of(const std::string& line) {
+    const auto hash = line.find_first_not_of(" \t");
+    if (hash == std::string::npos || line[hash] != '#') return "";
+    const auto word = line.find_first_not_of(" \t", hash + 1);
+    return word == std::string::npos ? "" : line.substr(word);
+}
+
+// Returns whether a main() is compiled whatever is defined, as tandem_is_program() in TandemComponent.cmake: one in
+// #ifndef NO_MAIN or #ifdef TEST does not make a program of the source.
+bool contains_main(const std::string& code) {
+    if (!names_main(code)) return false;
+    std::vector<bool> optional; // the branches around the line
+    std::istringstream lines(code);
+    for (std::string line; std::getline(lines, line);) {
+        const auto directive = directive_of(line);
+        if (directive.starts_with("if")) {
+            const auto starts = [&](const char* begin) { return directive.starts_with(begin); };
+            optional.push_back(starts("ifdef") || starts("ifndef") || starts("if 0") || starts("if defined"));
+        } else if (directive.starts_with("endif") && !optional.empty()) {
+            optional.pop_back();
+        } else if (directive.starts_with("el") && !optional.empty()) {
+            optional.back() = false;
+        } else if (names_main(line) && std::find(optional.begin(), optional.end(), true) == optional.end()) {
+            return true;
+        }
+    }
+    return false;
 }
 
 } // namespace

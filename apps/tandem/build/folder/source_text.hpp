@@ -18,7 +18,7 @@ std::string strip_comments(std::string text);
 /// false for sources with a main(), because they are separate programs.
 bool defines_function(const std::string& source, const std::string& function);
 
-/// Returns whether the source defines main(): it is a separate program.
+/// Returns whether the source defines main() whatever macros are defined: it is a separate program.
 bool defines_main(const std::string& source);
 
 /// Replaces '\' by '/', because project files and includes are often written on Windows.

@@ -49,6 +49,14 @@ std::string find_init_symbol(const std::filesystem::path& file,
                        "(FUNCTION)");
 }
 
+void warn_of_undefined(const tandem::plugin::Library& library, Logger& rtclog) {
+    if (!library.undefined().empty())
+        RTC_WARN(
+            ("module %s is loaded, but a call of this function will end the host: add the library or source "
+             "that defines it to the module's build",
+             library.undefined().c_str()));
+}
+
 // Runs the module's init function, which may throw anything.
 void call_init(const std::function<void()>& init, const std::string& what) {
     try {
@@ -87,7 +95,8 @@ void Manager::loadOrThrow(const std::string& file_name, const std::string& init_
         namespace plugin = tandem::plugin;
         const auto [file, symbol, trusted] = m_impl->find_module(name, function);
         if (m_impl->probes && !trusted) m_impl->probes->finish(file, symbol, m_impl->log);
-        const auto library = plugin::Library::load(file);
+        const auto library = plugin::Library::load(file, plugin::UndefinedFunctions::accept);
+        warn_of_undefined(*library, m_impl->log);
         plugin::require_abi_of_process(plugin::ComponentModel::rtm, TANDEM_RTM_ABI, library->path());
         const auto init = library->symbol<void(Manager*)>(symbol);
         {

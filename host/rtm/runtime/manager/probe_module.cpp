@@ -72,7 +72,8 @@ void run_module_probe(const tandem::plugin::ProbeTask& task, tandem::plugin::Pro
     const std::string init = task.arguments.at(0);
     const std::chrono::milliseconds destructor_timeout(std::stol(task.arguments.at(1)));
     report.begin_stage("its static constructors");
-    const auto library = tandem::plugin::Library::load(task.library);
+    const auto library =
+        tandem::plugin::Library::load(task.library, tandem::plugin::UndefinedFunctions::accept);
     tandem::plugin::require_abi_of_process(tandem::plugin::ComponentModel::rtm, TANDEM_RTM_ABI,
                                            library->path());
     library->symbol<void(Manager*)>(init); // throws when there is none

@@ -52,6 +52,21 @@ TEST_CASE("a neighbour of a header may be the IDL file that it is made from") {
     CHECK(scan.idl_files == std::vector<fs::path>{grip, "/hands/Palm.idl"});
 }
 
+// As RTCBuilder makes components for tests: it takes every IDL file for one with services.
+TEST_CASE("an implementation of services that an IDL file does not have is the header of its data types") {
+    const Folder folder;
+    folder.write("Arm/idl/Path.idl", "// interface\nstruct Path { sequence<double> node; };\n");
+    folder.write("Arm/idl/Grip.idl", "interface Grip {};\n");
+    folder.write("Arm/test/Test.cpp", "#include \"BasicDataTypeSVC_impl.h\"\n#include \"PathSVC_impl.h\"\n"
+                                      "#include \"GripSVC_impl.h\"\n#include \"NowhereSVC_impl.h\"\n");
+    const auto test = folder.path() / "Arm/test";
+    const auto scan = scan_includes(test, {test / "Test.cpp"}, {});
+    CHECK(scan.forwards ==
+          std::map<std::string, std::string>{{"BasicDataTypeSVC_impl.h", "rtm/idl/BasicDataTypeSkel.h"},
+                                             {"PathSVC_impl.h", "PathSkel.h"}});
+    CHECK(scan.idl_files == std::vector<fs::path>{folder.path() / "Arm/idl/Path.idl"});
+}
+
 // As in repositories that contain the headers of OPRoS and further devices beside them.
 TEST_CASE("a header below a copy of the OPRoS headers includes those of Tandem, not the copy") {
     const Folder folder;

@@ -206,8 +206,8 @@ TEST_CASE("the last line names the error of omniidl, whatever it is") {
 TEST_CASE("a source whose main() is disabled by a macro is built, and one with a main() is not") {
     const Folder folder;
     const std::string dir = folder.path() / "Rtc";
-    folder.write("Rtc/Good.cpp",
-                 std::string("int left();\nint right();\nint sum = left() + right();\n") + module_text);
+    folder.write("Rtc/Good.cpp", std::string("int left();\nint right();\nint sum = left() + right();\n") +
+                                     module_text + "#ifdef SELF_TEST\nint main() {}\n#endif\n");
     folder.write("Rtc/src/Left.cpp",
                  "#include <stdio.h>\nint left() { return 1; }\n"
                  "#ifndef SOLVER_NO_MAIN\n#ifdef LOUD\n#endif\nint main()\n{ puts(\"1\"); }\n#endif\n");

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/build/folder/autoconf.hpp"
+#include "apps/tandem/build/folder/source_text.hpp"
+
+#include <cctype>
+#include <regex>
+#include <set>
+#include <sstream>
+
+namespace tandem::command {
+namespace {
+
+using Words = std::vector<std::string>;
+
+// Removes comments of m4 and lines that are comments of the shell.
+std::string without_comments(const std::string& text) {
+    static const std::regex comment("(^|[\\s)])dnl(\\s.*|$)|^\\s*#.*");
+    std::istringstream lines(text);
+    std::string code;
+    for (std::string line; std::getline(lines, line);) code += std::regex_replace(line, comment, "$1") + '\n';
+    return code;
+}
+
+// Removes blanks and quotes of m4 around an argument.
+std::string unquote(std::string text) {
+    for (;;) {
+        const auto begin = text.find_first_not_of(" \t\n"), end = text.find_last_not_of(" \t\n");
+        if (begin == std::string::npos) return "";
+        text = text.substr(begin, end - begin + 1);
+        if (text.front() != '[' || text.back() != ']') return text;
+        text = text.substr(1, text.size() - 2);
+    }
+}
+
+// Returns the arguments of the macro whose opening parenthesis is at `at`, and moves `at` behind the call.
+Words read_arguments(const std::string& text, std::size_t& at) {
+    Words arguments{""};
+    int quotes = 0, parentheses = 0;
+    for (++at; at < text.size(); ++at) {
+        const char c = text[at];
+        quotes += c == '[' ? 1 : c == ']' ? -1 : 0;
+        if (quotes == 0 && c == ')' && parentheses-- == 0) break;
+        if (quotes == 0 && c == '(') ++parentheses;
+        if (quotes == 0 && parentheses == 0 && c == ',')
+            arguments.emplace_back();
+        else
+            arguments.back() += c;
+    }
+    for (auto& argument : arguments) argument = unquote(argument);
+    return arguments;
+}
+
+bool is_plain(const std::string& value) { return value.find_first_of("$;#\\\n`()") == std::string::npos; }
+
+bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+
+class Reader {
+  public:
+    // Skips the arguments of other macros: what they contain is conditional.
+    Words read(const std::string& text) {
+        bool at_command = true;
+        for (std::size_t at = 0; at < text.size();) {
+            auto end = at;
+            while (end < text.size() && is_word(text[end])) ++end;
+            const auto word = text.substr(at, end - at);
+            if (word.empty()) {
+                at_command =
+                    text[at] == '\n' || text[at] == ';' || (at_command && std::isspace(text[at]) != 0);
+                ++at;
+                continue;
+            }
+            at = end;
+            if (at < text.size() && text[at] == '(' && std::isupper(static_cast<unsigned char>(word[0])) != 0)
+                call(word, read_arguments(text, at));
+            else if (at_command)
+                shell_word(word);
+            at_command = false;
+        }
+        return std::move(definitions_);
+    }
+
+  private:
+    void shell_word(const std::string& word) {
+        static const std::set<std::string> begin{"if", "case", "for", "while", "until"},
+            end{"fi", "esac", "done"};
+        conditions_ += static_cast<int>(begin.count(word)) - static_cast<int>(end.count(word));
+    }
+
+    void call(const std::string& macro, const Words& arguments) {
+        if (conditions_ != 0) return;
+        if (macro == "AC_DEFINE")
+            add(arguments[0], arguments.size() > 1 ? arguments[1] : "1");
+        else if (macro == "AC_INIT" && arguments.size() > 1)
+            add_package("PACKAGE_NAME", "PACKAGE_VERSION", name_ = arguments[0], version_ = arguments[1]);
+        else if (macro == "AM_INIT_AUTOMAKE" && arguments.size() > 1)
+            add_package("PACKAGE", "VERSION", arguments[0], arguments[1]);
+        else if (macro == "AM_INIT_AUTOMAKE" && !name_.empty())
+            add_package("PACKAGE", "VERSION", short_name(name_), version_);
+    }
+
+    void add(const std::string& name, const std::string& value) {
+        static const std::regex identifier("[A-Za-z_]\\w*");
+        if (std::regex_match(name, identifier) && is_plain(value)) definitions_.push_back(name + "=" + value);
+    }
+
+    void add_package(const char* name_macro, const char* version_macro, const std::string& name,
+                     const std::string& version) {
+        if (is_plain(name)) add(name_macro, '"' + name + '"');
+        if (is_plain(version)) add(version_macro, '"' + version + '"');
+    }
+
+    static std::string short_name(std::string name) {
+        name = to_lower(std::move(name));
+        for (char& c : name)
+            if (!is_word(c)) c = '-';
+        return name;
+    }
+
+    Words definitions_;
+    std::string name_, version_;
+    int conditions_ = 0; // of the shell around the place
+};
+
+} // namespace
+
+std::vector<std::string> read_autoconf_definitions(const std::filesystem::path& configure_ac) {
+    return Reader().read(without_comments(read_text(configure_ac)));
+}
+
+} // namespace tandem::command
