@@ -3,7 +3,7 @@
 import {Chair, findChair} from './chair.js';
 import {Connection, ControlPanel} from './control.js';
 import {KeyedList, make, setClass, setText} from './dom.js';
-import {Graph} from './graph.js';
+import {Graph} from './graph/graph_view.js';
 import {LogView} from './system/log_view.js';
 import {PlotsPanel} from './plots.js';
 import {RecordingsView} from './system/recordings_view.js';

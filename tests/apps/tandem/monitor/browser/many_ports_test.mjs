@@ -102,7 +102,7 @@ test("scrolling to any port and filtering show what they should", async () => {
 
 test("a host with many components has those that failed in the graph, and says where the others are", async () => {
   const [names, note] = await page.evaluate(async () => {
-    const { topologyOf } = await import("./topology.js");
+    const { topologyOf } = await import("./graph/topology.js");
     const side = (pid) => ({ pid, state: "alive", model: "RTM", program: "rtm_host" });
     const link = { name: "l", readable: true, sides: { first: side(1), second: side(2) }, ports: [], shared_ports: [], call_queues: [] };
     const rows = Array.from({ length: 500 }, (_, i) => ({ name: `c${i}`, pid: 1, key: `c${i}`, state: i === 400 ? "error" : "active", tick: null }));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Selects the contents of the graph: hosts with their components and ports, and the edges between them.
 import {addInside} from './inside.js';
-import {keyOfPort} from './tables.js';
+import {keyOfPort} from '../tables.js';
 
 /** Limit per link; further ports are only in the view with the tables. */
 const mostPorts = 40;

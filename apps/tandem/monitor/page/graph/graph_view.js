@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Draws the graph of hosts, components, ports and services. topology.js selects the contents. The library elkjs
 // computes the layout in a worker, only when parts come or go.
-import {KeyedList, duration, makeSvg, number, setAttributes, setClass, setText} from './dom.js';
-import {rowsOf} from './ticks.js';
+import {KeyedList, duration, makeSvg, number, setAttributes, setClass, setText} from '../dom.js';
+import {rowsOf} from '../ticks.js';
 import {hasDetail, topologyOf} from './topology.js';
 
 /** Seconds without a message until an edge becomes grey. */
@@ -279,9 +279,9 @@ export class Graph {
 /** Loads elkjs with its layout in a worker. It defines the global `ELK`. */
 async function loadElk() {
   try {
-    await import('./lib/elk-api.js');
+    await import('../lib/elk-api.js');
   } catch {
     throw new Error('elkjs is not there; build Tandem where npm can install it');
   }
-  return new globalThis.ELK({workerUrl: new URL('lib/elk-worker.min.js', import.meta.url).href});
+  return new globalThis.ELK({workerUrl: new URL('../lib/elk-worker.min.js', import.meta.url).href});
 }
