@@ -3,7 +3,7 @@
 import {Chair, findChair} from './chair.js';
 import {Connection, ControlPanel} from './control.js';
 import {KeyedList, make, setClass, setText} from './dom.js';
-import {Graph} from './graph.js';
+import {Graph} from './graph/graph_view.js';
 import {LogView} from './system/log_view.js';
 import {PlotsPanel} from './plots.js';
 import {RecordingsView} from './system/recordings_view.js';
@@ -56,7 +56,7 @@ function filterPorts(text) {
   find('filter').focus({preventScroll: true});
 }
 
-const graph = new Graph(find('graph'), find('graph-note'), choose, filterPorts);
+const graph = new Graph(choose, filterPorts, system);
 const ports = new PortTable(choose);
 const ticks = new TickTable(), calls = new CallTable();
 
@@ -97,7 +97,7 @@ let isConnected = false;
 
 /** What each view shows of the state. Views that are not shown cost nothing. */
 const views = {
-  'graph-section': (state) => graph.show(state),
+  'graph-section': (state) => { graph.show(state); system.show(state); },
   'plots-section': (state) => { plots.show(state); values.show(state); },
   'links-section': (state) => { ports.show(state.links); calls.show(state.links); },
   'ticks-section': (state) => ticks.show(state),

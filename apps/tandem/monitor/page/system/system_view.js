@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Changes the system: activates components, connects ports, sets parameters, and undoes the last changes.
 import {KeyedList, make, setAttributes, setClass, setText} from '../dom.js';
+import {propertiesIn, showProperties} from './connection_properties.js';
 import {ParametersView} from './parameters_view.js';
-import {actionsFor, commonProperties, componentsIn, connectionsIn, jsonIn, portLabel, propertiesAgain, rtcConfOf, whyNot} from './system.js';
+import {actionsFor, componentsIn, connectionsIn, jsonIn, portLabel, propertiesAgain, rtcConfOf, whyNot} from './system.js';
 
 const find = (id) => document.getElementById(id);
 const mostRows = 200, mostUndone = 50;
@@ -25,12 +26,12 @@ export class SystemView {
     for (const id of ['connect-from', 'connect-to']) find(id).addEventListener('change', () => this.showFit());
     find('connect-form').addEventListener('submit', (event) => {
       event.preventDefault();
-      this.connect();
+      this.connect(...this.chosen(), propertiesIn(find('connect-properties')));
     });
     find('system-filter').addEventListener('input', () => this.draw());
     find('system-refresh').addEventListener('click', () => this.read());
     find('system-save').addEventListener('click', () => this.save());
-    find('system-undo').addEventListener('click', () => this.undo());
+    for (const undo of document.querySelectorAll('.system-undo')) undo.addEventListener('click', () => this.undo());
   }
 
   /** Called with each state while the view is shown. Reads the system again when the hosts have other components or states. */
@@ -134,42 +135,45 @@ export class SystemView {
     setText(find('connect-fit'), why === '' ? '✓ The ports fit.' : `✕ They cannot be connected: ${why}.`);
     setClass(find('connect-fit'), why === '' ? '' : 'bad');
     find('connect-form').querySelector('button').disabled = why !== '';
-    const offered = why === '' ? commonProperties(a, b) : [], key = JSON.stringify(offered);
-    if (this.offered === key) return;
-    this.offered = key;
-    find('connect-properties').replaceChildren(...offered.map(([name, values]) => {
-      const label = make('label', '', `${name.replace('_', ' ')} `), select = make('select');
-      select.name = name;
-      select.append(new Option('default', ''), ...values.map((value) => new Option(value, value)));
-      label.append(select);
-      return label;
-    }));
+    showProperties(find('connect-properties'), a, b);
   }
 
-  connect() {
-    const [a, b] = this.chosen(), ports = [a.name, b.name];
-    const properties = [...find('connect-properties').querySelectorAll('select')].filter(({value}) => value !== '').map(({name, value}) => `${name}=${value}`);
-    this.act({op: 'rtm', command: 'connect', arguments: ports, ...properties.length > 0 ? {properties} : {}}, `Connect ${ports.join(' and ')}`,
+  /** `properties`: KEY=VALUE. Returns whether it was done. */
+  connect(a, b, properties) {
+    const ports = [a.name, b.name];
+    return this.act({op: 'rtm', command: 'connect', arguments: ports, ...properties.length > 0 ? {properties} : {}}, `Connect ${ports.join(' and ')}`,
       {text: `disconnect ${ports.join(' and ')}`, request: {op: 'rtm', command: 'disconnect', arguments: ports}});
   }
 
-  createConnection({id, ports, properties}) {
-    const item = make('li'), again = propertiesAgain(properties), names = ports.join(' → ');
+  /** Ends a connection of connectionsIn(). Returns whether it was done. */
+  disconnect({id, ports, properties}) {
+    const again = propertiesAgain(properties), names = ports.join(' → ');
+    return this.act({op: 'rtm', command: 'disconnect', arguments: ports.slice(0, 2), connection: id}, `Disconnect ${names}`,
+      {text: `connect ${names}`, request: {op: 'rtm', command: 'connect', arguments: ports, ...again.length > 0 ? {properties: again} : {}}});
+  }
+
+  createConnection(connection) {
+    const {ports, properties} = connection, item = make('li'), names = ports.join(' → ');
     const kind = ['dataport.dataflow_type', 'dataport.subscription_type'].map((key) => properties[key]).filter(Boolean).join(', ');
-    const drop = button('Disconnect', () => this.act({op: 'rtm', command: 'disconnect', arguments: ports.slice(0, 2), connection: id}, `Disconnect ${names}`,
-      {text: `connect ${names}`, request: {op: 'rtm', command: 'connect', arguments: ports, ...again.length > 0 ? {properties: again} : {}}}));
+    const drop = button('Disconnect', () => this.disconnect(connection));
     drop.ariaLabel = `Disconnect ${names}`;
     item.append(make('b', '', names), make('span', 'empty', kind), drop);
     return item;
   }
 
+  /** Shows what became of a change in each view that can make one. */
+  tell(text, bad = false) {
+    for (const answer of document.querySelectorAll('.system-answer')) {
+      answer.classList.toggle('bad', bad);
+      setText(answer, text);
+    }
+  }
+
   /** Carries out a change, says what became of it, and keeps how to undo it: {text, request}. Returns whether it was done. */
   async act(request, text, undo = null) {
-    setClass(find('system-answer'), '');
-    setText(find('system-answer'), `${text}: waiting for the answer ...`);
+    this.tell(`${text}: waiting for the answer ...`);
     const reply = await this.connection.ask(request), lines = reply.text.trim();
-    setClass(find('system-answer'), reply.ok ? '' : 'bad');
-    setText(find('system-answer'), reply.ok ? `✓ ${text}: done` : `✕ ${text}: ${lines || 'failed'}`);
+    this.tell(reply.ok ? `✓ ${text}: done` : `✕ ${text}: ${lines || 'failed'}`, !reply.ok);
     if (reply.ok && undo) this.done = [...this.done, undo].slice(-mostUndone);
     this.showUndo();
     await this.read();
@@ -194,8 +198,10 @@ export class SystemView {
 
   showUndo() {
     const last = this.done.at(-1);
-    find('system-undo').hidden = !last;
-    setText(find('system-undo'), last ? `↶ Undo: ${last.text}` : '');
-    setAttributes(find('system-undo'), {title: `${this.done.length} changes can be undone`});
+    for (const button of document.querySelectorAll('.system-undo')) {
+      button.hidden = !last;
+      setText(button, last ? `↶ Undo: ${last.text}` : '');
+      setAttributes(button, {title: `${this.done.length} changes can be undone`});
+    }
   }
 }

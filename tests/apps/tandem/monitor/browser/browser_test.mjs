@@ -127,6 +127,7 @@ test("pictures of every view, also in the dark and on a phone", async () => {
     await other.waitForSelector("#chair-anchor:not([hidden])");
     for (const each of views) {
       await view(each, other);
+      if (each === "graph") await other.waitForSelector("#graph .edge");
       await other.waitForTimeout(300);
       await other.screenshot({ path: join(pictures, `${name}-${each}.png`), fullPage: true });
       // Nothing is wider than the page: what is too wide scrolls within its section.

@@ -59,7 +59,7 @@ const states = (count) => page.waitForFunction((wanted) => window.counts.states 
 test("1,000 ports are shown, with the rows of those in view and a line for each component", async () => {
   assert.equal(await page.locator("#graph .edge").count(), 5 * links);
   assert.match(await page.locator("#graph .port text").first().textContent(), /20 ports out/);
-  assert.match(await page.locator("#graph-note").textContent(), /1000 ports: the ports of a component are drawn as one/);
+  assert.match(await page.locator("#graph-note").textContent(), /Of a folded component, one line stands for all ports of a kind/);
   await page.waitForFunction(() => /[12]\d\d\/s/.test(document.querySelector("#graph .edge.live .rate").textContent));
   await page.screenshot({ path: join(pictures, "many-ports.png"), fullPage: true });
   await page.locator("#links-anchor").click();
@@ -100,17 +100,15 @@ test("scrolling to any port and filtering show what they should", async () => {
   assert.match(await page.locator("#filter").inputValue(), /^Plant\d$/);
 });
 
-test("a host with many components has those that failed in the graph, and says where the others are", async () => {
-  const [names, note] = await page.evaluate(async () => {
-    const { topologyOf } = await import("./topology.js");
-    const side = (pid) => ({ pid, state: "alive", model: "RTM", program: "rtm_host" });
-    const link = { name: "l", readable: true, sides: { first: side(1), second: side(2) }, ports: [], shared_ports: [], call_queues: [] };
-    const rows = Array.from({ length: 500 }, (_, i) => ({ name: `c${i}`, pid: 1, key: `c${i}`, state: i === 400 ? "error" : "active", tick: null }));
-    const { hosts, note } = topologyOf([link], [], rows);
-    return [hosts[0].components.map((component) => component.name), note];
-  });
-  assert.deepEqual([names.length, names[0], names[1]], [40, "c400", "c0"]);
-  assert.equal(note, '460 more components are listed in the view "Components"');
+test("a component of many ports is unfolded, and its ports fold again", async () => {
+  await page.locator("#graph-anchor").click();
+  const ports = await page.locator("#graph .port").count(), fold = page.getByRole("button", { name: /^Unfold Plant/ }).first();
+  await fold.focus();
+  await page.keyboard.press("Enter");
+  await page.waitForFunction((before) => document.querySelectorAll("#graph .port").length > before + 50, ports);
+  await page.getByRole("button", { name: /^Fold Plant/ }).first().click();
+  await page.waitForFunction((before) => document.querySelectorAll("#graph .port").length === before, ports);
+  await page.locator("#links-anchor").click();
 });
 
 test("a port of a thousand is chosen and plotted, and the death of the system is told", async () => {

@@ -2,10 +2,6 @@
 // Adds to the graph what hosts list of themselves: components without a link, their ports, and the connections inside hosts and
 // between them that are no links.
 
-/** Limit per host of components that share no port. */
-const mostInside = 40;
-/** With more ports than this, the ports that no link shares are left out. */
-const mostPorts = 200;
 /** The ports of these components are mirrors, which the graph shows beside the link. */
 const proxyTypes = new Set(['AdaptorComp', 'InterceptorComp']);
 
@@ -19,48 +15,57 @@ const findPort = (boxes, component, name) => {
   return undefined;
 };
 
+/** Returns lists of items by their key. */
+function groupsOf(items, keyOf) {
+  const groups = new Map();
+  for (const item of items) {
+    const key = keyOf(item);
+    if (!groups.has(key)) groups.set(key, []);
+    groups.get(key).push(item);
+  }
+  return groups;
+}
+
+/** Whether a port stands for one of the other model, and no connection of a link shows it. */
+const isFree = (boxes, {connections}) => connections.length === 0 && boxes.some(({part}) => part?.type === 'InterceptorComp');
+
 class Inside {
   constructor(hosts, rows) {
-    Object.assign(this, {hosts, rows, hidden: 0, ends: new Map()});
-    const count = hosts.reduce((sum, {inventory}) => sum + (inventory?.ports.length ?? 0), 0);
-    this.hiddenPorts = count > mostPorts ? count : 0;
+    Object.assign(this, {hosts, rows: groupsOf(rows, ({pid}) => pid), ends: new Map()});
   }
 
-  /** Adds components that share no port, failed ones first if there are many. Other components get their state. */
+  /** Adds components that share no port. Other components get their state. */
   addComponents(host) {
-    const own = host.components.filter(({mirror}) => !mirror), listed = new Map();
+    const own = groupsOf(host.components.filter(({mirror}) => !mirror), ({base}) => base), listed = new Map();
     for (const component of host.inventory?.components ?? []) listed.set(component.name, component);
-    const states = this.rows.filter(({pid}) => pid === host.pid);
-    const names = new Set([...listed.keys(), ...states.filter(({state}) => state !== null).map(({name}) => name)]);
-    const inside = [];
-    for (const name of names) {
-      const found = states.filter((row) => row.name === name), shared = own.filter(({base}) => base === name);
-      const part = listed.get(name) ?? null, contexts = (host.inventory?.contexts ?? []).filter(({components}) => components.includes(name));
+    const states = groupsOf(this.rows.get(host.pid) ?? [], ({name}) => name), contextsOf = new Map();
+    for (const context of host.inventory?.contexts ?? [])
+      for (const name of context.components) contextsOf.set(name, [...contextsOf.get(name) ?? [], context]);
+    const stated = [...states].filter(([, rows]) => rows.some(({state}) => state !== null)).map(([name]) => name);
+    for (const name of new Set([...listed.keys(), ...stated])) {
+      const found = states.get(name) ?? [], shared = own.get(name) ?? [], part = listed.get(name) ?? null, contexts = contextsOf.get(name) ?? [];
       for (const box of shared) Object.assign(box, {row: found[0], part, contexts});
       if (shared.length > 0) continue;
       for (const row of found.length > 0 ? found : [undefined])
-        inside.push({id: `${host.id}/inside/${row?.key ?? name}`, name, base: name, mirror: false, inside: true, ports: [], row, part, contexts});
+        host.components.push({id: `${host.id}/inside/${row?.key ?? name}`, name, base: name, mirror: false, inside: true, ports: [], row, part, contexts});
     }
-    this.hidden += Math.max(0, inside.length - mostInside);
-    const urgency = inside.length > mostInside ? ({row}) => row?.state === 'error' || row?.tick?.hang ? 1 : 0 : () => 0;
-    host.components.push(...inside.sort((a, b) => urgency(b) - urgency(a)).slice(0, mostInside));
   }
 
   /** Adds the ports of proxies, after those of other components: the graph has most of them as mirrors already. */
   addPorts(host, ofProxies) {
-    const mirrors = host.components.filter(({mirror}) => mirror);
+    const mirrors = host.components.filter(({mirror}) => mirror), own = groupsOf(host.components.filter(({mirror}) => !mirror), ({base}) => base);
     for (const listed of host.inventory?.ports ?? []) {
-      const boxes = host.components.filter(({mirror, base}) => !mirror && base === listed.component);
+      const boxes = own.get(listed.component) ?? [];
       const proxy = boxes.some(({part}) => proxyTypes.has(part?.type));
       if (proxy !== ofProxies) continue;
       let port = findPort(proxy ? mirrors : boxes, listed.component, listed.name);
-      const mirror = proxy && port !== undefined, drawn = !proxy || this.reachesInside(listed);
-      if (!port && drawn && boxes.length > 0 && this.hiddenPorts === 0) {
+      const mirror = proxy && port !== undefined, drawn = !proxy || isFree(boxes, listed) || this.reachesInside(listed);
+      if (!port && drawn && boxes.length > 0) {
         port = {id: portIdOf(boxes[0], listed.name), name: listed.name, kind: kindOf(listed), type: listed.type, out: isSource(listed), inside: true};
         boxes[0].ports.push(port);
       }
       if (!port) continue;
-      port.connections = listed.connections.length;
+      Object.assign(port, {listed, connections: listed.connections.length});
       for (const id of listed.connections) {
         if (!this.ends.has(id)) this.ends.set(id, []);
         this.ends.get(id).push({host, port, mirror, source: isSource(listed), service: listed.kind === 'service'});
@@ -96,11 +101,11 @@ function edgeOf(id, from, to) {
     [left, right] = mirror.port.side === 'first' ? [near.port.id, inner] : [inner, near.port.id];
   }
   const toRight = right === to.port.id || (to === mirror && right === to.port.inner);
-  return {id: `${id} ${from.port.id} ${to.port.id}`, left, right, inside: true, service: from.service, toRight,
+  return {id: `${id} ${from.port.id} ${to.port.id}`, connection: id, from: from.port, to: to.port, left, right, inside: true, service: from.service, toRight,
     title: `${from.port.name} → ${to.port.name} ${from.port.type ?? ''}${from.host === to.host ? '' : ', between two hosts without a link'}`};
 }
 
-/** Adds to the hosts of links, and adds hosts without a link. `listed`: the hosts of the state. Returns the new edges, and notes. */
+/** Adds to the hosts of links, and adds hosts without a link. `listed`: the hosts of the state. Returns the new edges. */
 export function addInside(hosts, listed, rows) {
   for (const {pid, program, inventory, stopped} of [...listed].sort(byName))
     if (!hosts.some((host) => host.pid === pid) && inventory)
@@ -116,10 +121,7 @@ export function addInside(hosts, listed, rows) {
   for (const {components} of hosts)
     for (const {ports} of components)
       for (const port of ports) port.side ??= port.out ? 'first' : 'second';
-  const notes = [];
-  if (inside.hidden > 0) notes.push(`${inside.hidden} more components are listed in the view "Components"`);
-  if (inside.hiddenPorts > 0) notes.push(`the ports without a link are not drawn, because the hosts have ${inside.hiddenPorts} ports`);
-  return {edges, notes};
+  return edges;
 }
 
 /** Hosts without a link keep their order when one of them is started again. */

@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Selects the contents of the graph: hosts with their components and ports, and the edges between them.
 import {addInside} from './inside.js';
-import {keyOfPort} from './tables.js';
+import {keyOfPort} from '../tables.js';
 
-/** Limit per link; further ports are only in the view with the tables. */
-const mostPorts = 40;
-/** With more ports than this in all links, one line represents the ports of a component and kind. */
-const mostDrawn = 160;
 const sides = ['first', 'second'];
 const other = {first: 'second', second: 'first'};
 
@@ -34,7 +30,6 @@ class Builder {
 
   hosts = new Map();
   edges = [];
-  hidden = 0;
   unreadable = [];
 
   host(link, side) {
@@ -51,78 +46,48 @@ class Builder {
     return host.components.get(id);
   }
 
-  /** `of`: kind, and for data ports with a ring also `port` and its key. */
+  /** `of`: kind, and for data ports with a ring also `port` and its key. A port and its mirror are twins. */
   addPort(link, owner, component, of) {
     const itself = hostId(link, 'first') === hostId(link, 'second');
     const own = this.component(link, owner, component || '(port table not read)', false);
     const id = `${own.id}/${of.name}`;
-    own.ports.push({id, side: owner, alone: itself, ...of});
+    const near = {id, side: owner, alone: itself, ...of};
+    own.ports.push(near);
     if (itself || of.mismatch) return;
     const far = this.component(link, other[owner], component || '(port table not read)', true);
     const refused = mirrorEnds(link.sides[other[owner]].pid, of, owner).map((end) => this.refusals.get(end)).find((reason) => reason);
-    far.ports.push({id: `${far.id}/${of.name}`, side: other[owner], ...of, mismatch: refused});
-    const ends = owner === 'first' ? [id, `${far.id}/${of.name}`] : [`${far.id}/${of.name}`, id];
+    const mirror = {id: `${far.id}/${of.name}`, side: other[owner], ...of, mismatch: refused, twin: near};
+    near.twin = mirror;
+    far.ports.push(mirror);
+    const ends = owner === 'first' ? [id, mirror.id] : [mirror.id, id];
     const dead = sides.some((side) => link.sides[side].state !== 'alive');
     const toRight = of.port ? of.port.writer === 'first' : (of.kind === 'required') === (owner === 'first');
-    this.edges.push({id: `${link.name} ${id}`, left: ends[0], right: ends[1], port: of.port, service: !of.port, dead, toRight,
+    this.edges.push({id: `${link.name} ${id}`, left: ends[0], right: ends[1], from: near, to: mirror, port: of.port, service: !of.port, dead, toRight,
       refused, title: refused ?? `${of.name} ${of.type ?? ''}, link ${link.name}`});
   }
 
-  /** Adds one port for all ports of a component with the same kind and direction. */
-  addGroups(link, all) {
-    const groups = new Map();
-    for (const {owner, component, ...of} of all) {
-      const kind = of.mismatch ? 'mismatch' : of.kind, key = JSON.stringify([owner, component, kind]);
-      if (!groups.has(key)) groups.set(key, {owner, component, kind, members: []});
-      groups.get(key).members.push(of);
-    }
-    for (const {owner, component, kind, members} of groups.values()) {
-      const ports = members.map((of) => of.port).filter((port) => port !== undefined), sound = ports.filter((port) => !port.damage);
-      const sum = (value) => sound.reduce((all, port) => all + value(port), 0);
-      const silent = sound.map((port) => port.silent_s).filter((seconds) => seconds !== null);
-      const what = kind === 'mismatch' ? 'not joined' : ports.length > 0 ? `ports ${kind}` : kind;
-      this.addPort(link, owner, component, {
-        name: `${members.length} ${what}`, kind: members[0].kind, filter: component || link.name, mismatch: members[0].mismatch,
-        port: ports.length === 0 ? undefined : {writer: ports[0].writer, damage: sound.length === 0 ? ports[0].damage : '',
-          sent_per_s: sum((port) => port.sent_per_s), recently: {lost: sum((port) => port.recently.lost)},
-          silent_s: silent.length > 0 ? Math.min(...silent) : null},
-      });
-    }
-  }
-
-  addLink(link, together) {
+  addLink(link) {
     if (!link.readable) return this.unreadable.push(`${link.name}: ${link.reason}`);
     for (const side of sides) this.host(link, side);
     const data = link.ports.map((port) => ({name: port.name, kind: port.owner === port.writer ? 'out' : 'in', type: port.type,
       port, key: keyOfPort(link, port), owner: port.owner, component: port.component}));
     const all = [...link.shared_ports.filter((port) => port.mismatch), ...data, ...link.shared_ports.filter((port) => !port.mismatch)];
-    if (together) return this.addGroups(link, all);
-    this.hidden += Math.max(0, all.length - mostPorts);
-    for (const {owner, component, ...of} of all.slice(0, mostPorts)) this.addPort(link, owner, component, of);
+    for (const {owner, component, ...of} of all) this.addPort(link, owner, component, of);
   }
 }
 
 /** Whether the host tells more of a component than its name. */
 export const hasDetail = ({row, part}) => Boolean(row || part);
 
-/** `key` changes when a part comes or goes, but not with rates and states. `note`: omitted parts. */
+/** Returns {hosts, edges, notes} of all parts; fold.js reduces them. `notes`: what cannot be shown. */
 export function topologyOf(links, refused, rows = [], listed = []) {
   const builder = new Builder(refused);
-  const total = links.reduce((count, link) => count + (link.readable ? link.ports.length + link.shared_ports.length : 0), 0);
-  const together = total > mostDrawn;
-  for (const link of links) builder.addLink(link, together);
+  for (const link of links) builder.addLink(link);
   const hosts = [...builder.hosts.values()].map((host) => ({...host, components: [...host.components.values()]}));
-  const inside = addInside(hosts, listed, rows);
-  const edges = [...builder.edges, ...inside.edges];
+  const edges = [...builder.edges, ...addInside(hosts, listed, rows)];
   // For a host with several links, adds the link's name to the component.
   for (const {components} of hosts)
     if (new Set(components.filter(({inside}) => !inside).map((component) => component.link)).size > 1)
       for (const component of components.filter(({inside}) => !inside)) component.name += `, link ${component.link}`;
-  const key = JSON.stringify([hosts.map((host) => [host.id, host.title, host.components.map((component) =>
-    [component.id, hasDetail(component), component.ports.map((port) => [port.id, port.side, port.mismatch])])]), edges.map((edge) => edge.id)]);
-  const notes = [...builder.unreadable];
-  if (together) notes.push(`${total} ports: the ports of a component are drawn as one; the view "Ports and calls" lists each`);
-  if (builder.hidden > 0) notes.push(`${builder.hidden} more ports are listed in the view "Ports and calls"`);
-  notes.push(...inside.notes);
-  return {hosts, edges, key, note: notes.join('; ')};
+  return {hosts, edges, notes: builder.unreadable};
 }
