@@ -5,6 +5,9 @@ import {align, curveId, labelOf, pointsOf} from './curves.js';
 import {KeyedList, make, number, setAttributes, setClass, setText} from './dom.js';
 
 const height = 240;
+/** Thin lines cost a third: plots of many curves have them. */
+const thick = 1.75, thin = 1, mostThick = 4; // pixels; curves
+const legendPause = 200; // ms between two texts that people can read
 const dashes = [[], [7, 3], [2, 3], [9, 3, 2, 3], [], [12, 4]], colours = dashes.length;
 let loading = null;
 
@@ -29,7 +32,7 @@ const valueText = (value) => value === null || value === undefined || Number.isN
 export class PlotView {
   /** `parent`: gets the plot and its legend. `plot`: curves, seconds, range (null: fits the values). `store`: SampleStore. */
   constructor(parent, plot, store) {
-    Object.assign(this, {plot, store, uplot: null, key: '', hidden: new Set(), paused: false, shown: null});
+    Object.assign(this, {plot, store, uplot: null, key: '', hidden: new Set(), paused: false, shown: null, points: null, legendAt: -legendPause});
     this.element = make('div', 'plot');
     this.legendElement = make('div', 'legend');
     parent.append(this.element, this.legendElement);
@@ -73,11 +76,12 @@ export class PlotView {
 
   create(Plot) {
     this.uplot?.destroy();
+    this.legendAt = -legendPause;
     const {plot} = this, axis = {stroke: colourOf('--faint'), grid: {stroke: colourOf('--line'), width: 1}, ticks: {stroke: colourOf('--line')}};
     const range = (_, low, high) => plot.range ?? (low === null ? [-1, 1] : low === high ? [low - 1, high + 1]
       : [low - 0.05 * (high - low), high + 0.05 * (high - low)]);
     const series = plot.curves.map((curve, i) => ({label: this.label(curve), stroke: colourOf(`--curve${i % colours}`),
-      dash: dashes[i % colours], width: 1.75, show: !this.hidden.has(curveId(curve)), points: {show: false}}));
+      dash: dashes[i % colours], width: plot.curves.length > mostThick ? thin : thick, show: !this.hidden.has(curveId(curve)), points: {show: false}}));
     this.uplot = new Plot({...this.size(), legend: {show: false}, scales: {x: {time: true}, y: {range}},
       axes: [{...axis, space: 90, values: (_, marks, __, ___, step) => marks.map((mark) => clockText(mark, step))}, {...axis, size: 60}], series: [{}, ...series],
       cursor: {drag: {x: true, y: true, uni: 40, setScale: false}, focus: {prox: 24}},
@@ -117,20 +121,30 @@ export class PlotView {
       this.create(Plot);
       this.key = key;
     }
-    if (!this.paused) this.shown = [store.now() - 1000 * plot.seconds, store.now()];
+    const now = store.now();
+    if (!this.paused) this.shown = [now - 1000 * plot.seconds, now];
     const [from, to] = this.shown;
-    const points = plot.curves.map((curve) => pointsOf(store, curve, from, to));
     this.uplot.batch(() => {
-      this.uplot.setData(align(points), false);
+      if (!this.hasPoints(from, to)) this.uplot.setData(align(plot.curves.map((curve) => pointsOf(store, curve, from, to))), false);
       this.uplot.setScale('x', {min: from / 1000, max: to / 1000});
       if (this.zoom) this.uplot.setScale('y', {min: this.zoom[0], max: this.zoom[1]});
     });
-    this.drawLegend();
+    if (performance.now() - this.legendAt > legendPause) this.drawLegend();
+  }
+
+  /** Returns whether the points that were computed last show these times: no message has come, and the span is the same. */
+  hasPoints(from, to) {
+    const tracks = this.plot.curves.flatMap(({key, minus}) => minus ? [key, minus.key] : [key]).map((key) => this.store.tracks.get(key));
+    const points = [this.uplot, to - from, ...tracks, ...tracks.map((track) => track?.version)], {points: last, from: begin} = this;
+    const same = last?.length === points.length && from >= begin && points.every((each, i) => i === 1 ? Math.abs(each - last[i]) < 1 : each === last[i]);
+    if (!same) Object.assign(this, {points, from});
+    return same;
   }
 
   /** Shows the values at the cursor, or the newest ones. */
   drawLegend() {
     if (!this.uplot) return;
+    this.legendAt = performance.now();
     const {idx} = this.uplot.cursor, data = this.uplot.data;
     this.legend.show(this.plot.curves.map((curve, index) => ({curve, index, label: this.label(curve),
       value: lastOf(data[index + 1], idx ?? data[0].length - 1)})), ({curve}) => curveId(curve));

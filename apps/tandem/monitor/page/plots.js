@@ -262,9 +262,9 @@ export class PlotsPanel {
     }
   }
 
-  /** Draws 30 times a second, or once if the person wants little motion. */
+  /** Draws all plots in each frame of the browser, or once a second if the person wants little motion. */
   run(Plot, loop) {
-    const pause = matchMedia('(prefers-reduced-motion: reduce)').matches ? 1000 : 33;
+    const pause = matchMedia('(prefers-reduced-motion: reduce)').matches ? 1000 : 0;
     let drawn = 0;
     const frame = (now) => {
       if (this.loop !== loop) return;
