@@ -7,6 +7,7 @@
 #include "apps/tandem/output/print.hpp"
 #include "apps/tandem/record/cdr_message.hpp"
 #include "host/process/output_file.hpp"
+#include "host/text/join.hpp"
 
 #include <fmt/format.h>
 
@@ -203,12 +204,6 @@ std::vector<std::string> port_topics(const mcap::Contents& contents) {
     return topics;
 }
 
-std::string joined(const std::vector<std::string>& names) {
-    std::string text;
-    for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
-    return text;
-}
-
 } // namespace
 
 int bag_convert(const BagConvertOptions& options) {
@@ -226,7 +221,7 @@ int bag_convert(const BagConvertOptions& options) {
                                  " has no messages of ports recorded by tandem record");
     if (options.csv && topics.size() != 1)
         throw std::runtime_error(
-            fmt::format("--csv writes one topic: choose one with --topic: {}", joined(topics)));
+            fmt::format("--csv writes one topic: choose one with --topic: {}", text::join(topics, ", ")));
     mcap::Query query;
     query.channels = channels_of(reader.contents(), options.file, topics);
     query.in_log_time_order = true;

@@ -6,6 +6,7 @@
 #include "apps/tandem/output/format.hpp"
 #include "apps/tandem/output/print.hpp"
 #include "apps/tandem/output/table.hpp"
+#include "host/text/join.hpp"
 
 #include <fmt/format.h>
 
@@ -105,10 +106,11 @@ std::string times_line(const mcap::Statistics& statistics) {
 }
 
 std::string chunks_line(const mcap::Contents& contents) {
-    std::string line;
-    for (const auto& [compression, chunks] : chunks_of(contents))
-        line += fmt::format("{}{} ({}): {} for {}", line.empty() ? "" : "; ", chunks.count, compression,
-                            format_bytes(chunks.stored), format_bytes(chunks.uncompressed));
+    const std::string line = text::join(chunks_of(contents), "; ", [](const auto& each) {
+        const auto& [compression, chunks] = each;
+        return fmt::format("{} ({}): {} for {}", chunks.count, compression, format_bytes(chunks.stored),
+                           format_bytes(chunks.uncompressed));
+    });
     return line.empty() ? "none" : line;
 }
 

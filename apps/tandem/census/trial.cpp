@@ -5,6 +5,7 @@
 #include "apps/tandem/output/format.hpp"
 #include "host/process/run_command.hpp"
 
+#include <boost/algorithm/string/erase.hpp>
 #include <chrono>
 #include <fmt/format.h>
 #include <sstream>
@@ -17,10 +18,6 @@ namespace fs = std::filesystem;
 
 fs::path programs() { return fs::read_symlink("/proc/self/exe").parent_path(); }
 
-void remove(std::string& text, const std::string& part) {
-    for (std::size_t at; (at = text.find(part)) != std::string::npos;) text.erase(at, part.size());
-}
-
 // Returns the message of `tandem ... build`, its last line, without what the table has in other columns.
 std::string build_error(const process::CommandResult& build, const Candidate& candidate) {
     std::istringstream lines(build.output);
@@ -28,8 +25,8 @@ std::string build_error(const process::CommandResult& build, const Candidate& ca
     for (std::string line; std::getline(lines, line);)
         if (line.starts_with("tandem: ")) message = line.substr(8);
     if (message.empty()) return "the build " + build.failure();
-    remove(message, " (the compiler's output is above)");
-    remove(message, candidate.folder.string() + "/");
+    boost::erase_all(message, " (the compiler's output is above)");
+    boost::erase_all(message, candidate.folder.string() + "/");
     if (message.starts_with("component ")) {
         const auto colon = message.find(": ");
         if (message.substr(0, colon).ends_with(" does not compile")) message.erase(0, colon + 2);

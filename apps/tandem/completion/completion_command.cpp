@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <boost/algorithm/string/replace.hpp>
 #include <fmt/format.h>
 #include <memory>
 #include <string>
@@ -142,13 +143,6 @@ _@NAME@() {
 complete -F _@NAME@ @NAME@
 )";
 
-// The text with every mark replaced.
-std::string replace_all(std::string text, const std::string& mark, const std::string& by) {
-    for (std::size_t at = 0; (at = text.find(mark, at)) != std::string::npos; at += by.size())
-        text.replace(at, mark.size(), by);
-    return text;
-}
-
 /// Returns a script for bash that completes the command line of `app`: sub-commands, options, and their values where these
 /// are files, folders, links, components or one of a fixed set. Everything in it comes from the tree of CLI::App, so that a
 /// new command or option is completed without further work. The type name or, for a positional argument, the name says what
@@ -156,10 +150,12 @@ std::string replace_all(std::string text, const std::string& mark, const std::st
 std::string bash_completion_script(const CLI::App& app) {
     Branches branches;
     branches.add(app, app.get_name());
-    std::string text = replace_all(script, "@NAME@", app.get_name());
-    text = replace_all(std::move(text), "@DESCEND@", branches.descend);
-    text = replace_all(std::move(text), "@VALUES@", branches.values);
-    return replace_all(std::move(text), "@WORDS@", branches.words);
+    std::string text = script;
+    boost::replace_all(text, "@NAME@", app.get_name());
+    boost::replace_all(text, "@DESCEND@", branches.descend);
+    boost::replace_all(text, "@VALUES@", branches.values);
+    boost::replace_all(text, "@WORDS@", branches.words);
+    return text;
 }
 
 } // namespace

@@ -14,6 +14,7 @@
 #include "apps/tandem/shared_ports/link_ports.hpp"
 #include "host/opros/engine/load/plugin_dirs.hpp"
 #include "host/rtm/runtime/configuration/conf_file.hpp"
+#include "host/text/join.hpp"
 #include "shm/inspect/observer.hpp"
 #include "shm/os/error.hpp"
 
@@ -70,9 +71,8 @@ void check_opros(const RunFolder& folder, const FolderCheckOptions& options,
 
 void check_rtcs(const RunFolder& folder, const FolderCheckOptions& options, std::vector<CheckResult>& found) {
     try {
-        std::string names;
-        for (const auto& rtc : probe_rtc_instances(folder.rtc_conf, {options.plugin_dirs, options.timeout_s}))
-            names += (names.empty() ? "" : ", ") + rtc.name;
+        const auto rtcs = probe_rtc_instances(folder.rtc_conf, {options.plugin_dirs, options.timeout_s});
+        const std::string names = text::join(rtcs, ", ", [](const auto& rtc) { return rtc.name; });
         found.push_back(doctor::ok("RTCs", names.empty() ? "none" : replace_control_characters(names)));
     } catch (const std::runtime_error& error) {
         found.push_back(failure("RTCs", "cannot be created", error.what()));

@@ -2,6 +2,7 @@
 // The settings of rtc.conf that decide who reaches the objects of an rtm_host, see host/rtm/runtime/network/access.cpp.
 #include "apps/tandem/doctor/exposure.hpp"
 #include "apps/tandem/output/format.hpp"
+#include "host/text/join.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -45,9 +46,7 @@ TcpEndpoint parse_endpoint(std::string text) {
 }
 
 std::string addresses_of(const std::vector<TcpEndpoint>& endpoints) {
-    std::string list;
-    for (const auto& endpoint : endpoints) list += (list.empty() ? "" : ", ") + endpoint.address;
-    return list;
+    return text::join(endpoints, ", ", &TcpEndpoint::address);
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/doctor/checks.hpp"
 #include "apps/tandem/output/format.hpp"
+#include "host/text/join.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -86,8 +87,7 @@ CheckResult check_governor(const Machine& machine) {
     const std::string name = "frequency governor";
     const auto found = governors(machine);
     if (found.empty()) return ok(name, "none: this system does not control the frequency");
-    std::string value;
-    for (const auto& governor : found) value += (value.empty() ? "" : ", ") + governor;
+    const std::string value = text::join(found, ", ");
     if (found == std::set<std::string>{"performance"}) return ok(name, value);
     return warning(name, value, "an idle core starts slowly: run cpupower frequency-set -g performance");
 }

@@ -7,6 +7,7 @@
 #include "apps/tandem/import/rtm_setup.hpp"
 #include "apps/tandem/import/rts_profile.hpp"
 #include "apps/tandem/output/print.hpp"
+#include "host/text/join.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -262,8 +263,8 @@ void tell_other_languages(const RtmSetup& setup, ImportReport& report) {
 
 // Shares all RTCs on one link, in their order of creation.
 void add_interceptor(RtmSetup& setup, const std::string& link) {
-    std::string names;
-    for (const auto& component : setup.components) names += (names.empty() ? "" : ";") + component.name;
+    const std::string names =
+        text::join(setup.components, ";", [](const auto& component) { return component.name; });
     setup.modules.emplace_back("InterceptorComp.so");
     setup.components.push_back({"InterceptorComp?link=" + link + (names.empty() ? "" : "&rtc=" + names),
                                 "InterceptorComp", "InterceptorComp0", ""});

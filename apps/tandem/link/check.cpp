@@ -15,6 +15,7 @@
 #include "host/opros/engine/load/plugin_dirs.hpp"
 #include "host/opros/engine/node/node_part.hpp"
 #include "host/opros/engine/profile/application_profile.hpp"
+#include "host/text/join.hpp"
 #include "proxy/adaptor/property_check.hpp"
 
 #include <algorithm>
@@ -98,9 +99,8 @@ class Collector {
         joined_links_.push_back(link);
         const auto shared = finder_.find(link);
         if (!shared) {
-            std::string named;
-            for (const auto& [other, rtc] : finder_.configured_links())
-                named += (named.empty() ? "" : ", ") + other;
+            const auto links = finder_.configured_links();
+            const std::string named = text::join(links, ", ", [](const auto& each) { return each.first; });
             throw engine::SetupError(
                 entry.location,
                 "component '" + entry.name + "' joins link '" + link +

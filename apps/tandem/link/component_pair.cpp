@@ -8,6 +8,7 @@
 #include "host/opros/engine/load/plugin_dirs.hpp"
 #include "host/plugin/error.hpp"
 #include "host/plugin/library_contents.hpp"
+#include "host/text/join.hpp"
 
 #include <optional>
 #include <stdexcept>
@@ -51,19 +52,10 @@ std::optional<engine::ComponentProfile> find_profile(const fs::path& place, cons
     }
 }
 
-template <class Names>
-std::string join(const Names& names) {
-    std::string text;
-    for (const auto& each : names) text += (text.empty() ? "" : ", ") + each;
-    return text;
-}
-
 fs::path select_module(const std::vector<fs::path>& modules, const fs::path& place) {
     if (modules.size() == 1) return fs::absolute(modules.front()).lexically_normal();
-    std::vector<std::string> names;
-    names.reserve(modules.size());
-    for (const auto& each : modules) names.push_back(each.string());
-    throw std::runtime_error(place.string() + " has several RTC modules: " + join(names) +
+    throw std::runtime_error(place.string() + " has several RTC modules: " +
+                             text::join(modules, ", ", [](const fs::path& each) { return each.string(); }) +
                              "; give one of these files instead of the folder");
 }
 
@@ -78,7 +70,7 @@ RtcType select_type(const fs::path& module, const LinkProfileOptions& options) {
     }
     throw std::runtime_error(
         module.string() + " registers " +
-        (names.empty() ? "no component type" : "the component types " + join(names)) +
+        (names.empty() ? "no component type" : "the component types " + text::join(names, ", ")) +
         (options.type.empty() ? "; choose one with --type NAME" : ", but not " + options.type));
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/link/port_pairs.hpp"
 
+#include "host/text/join.hpp"
+
 #include <algorithm>
 #include <cctype>
 #include <set>
@@ -32,12 +34,6 @@ std::string normalized_name(std::string name) {
 
 bool same_name(const PortPair& pair) {
     return normalized_name(pair.opros["name"]) == normalized_name(pair.rtc["name"]);
-}
-
-std::string join(const std::vector<std::string>& names) {
-    std::string text;
-    for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
-    return text;
 }
 
 /// Chooses the pairs.
@@ -77,7 +73,7 @@ class Matcher {
             if (fits(pair)) fitting.push_back(side_of(pair, other)["name"]);
         }
         if (fitting.size() > 1)
-            return what + "several ports of " + peer + " fit: " + join(fitting) +
+            return what + "several ports of " + peer + " fit: " + text::join(fitting, ", ") +
                    "; connect the intended one by hand";
         if (fitting.size() == 1)
             return what + peer + "." + fitting.front() +

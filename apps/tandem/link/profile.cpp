@@ -12,6 +12,7 @@
 #include "apps/tandem/shared_ports/running_host.hpp"
 #include "host/opros/engine/load/plugin_dirs.hpp"
 #include "host/rtm/runtime/configuration/conf_file.hpp"
+#include "host/text/join.hpp"
 #include "proxy/adaptor/property_check.hpp"
 #include "proxy/wire/signature_match.hpp"
 
@@ -165,9 +166,7 @@ class JoinFolder {
         auto properties =
             add_subcomponent(subcomponents, adaptor_name, "AdaptorComp.xml").append_child("properties");
         append_property(properties, "link", link_);
-        std::string names;
-        for (const auto& name : event_ports) names += (names.empty() ? "" : ", ") + name;
-        if (!names.empty()) append_property(properties, "event_ports", names);
+        if (!event_ports.empty()) append_property(properties, "event_ports", text::join(event_ports, ", "));
         for (const auto& [name, value] : properties_) append_property(properties, name, value);
         auto list = package.append_child("port_connections");
         for (const auto& each : connections) add_connection(list, pair.opros.name, each);

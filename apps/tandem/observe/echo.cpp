@@ -5,6 +5,7 @@
 #include "apps/tandem/output/format.hpp"
 #include "apps/tandem/output/print.hpp"
 #include "apps/tandem/output/print_note.hpp"
+#include "host/text/join.hpp"
 #include "proxy/wire/time.hpp"
 #include "shm/os/clock.hpp"
 
@@ -18,10 +19,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 std::string hex_dump(std::span<const std::byte> bytes) {
-    std::string text;
-    for (const std::byte byte : bytes)
-        text += fmt::format("{}{:02x}", text.empty() ? "" : " ", static_cast<unsigned>(byte));
-    return text;
+    return text::join(bytes, " ",
+                      [](std::byte byte) { return fmt::format("{:02x}", static_cast<unsigned>(byte)); });
 }
 
 /// Returns the message with the names of its members, or its bytes if they do not fit the port's type.

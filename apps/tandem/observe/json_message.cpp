@@ -2,6 +2,7 @@
 #include "apps/tandem/observe/json_message.hpp"
 
 #include "apps/tandem/output/wide_text.hpp"
+#include "host/text/join.hpp"
 #include "proxy/wire/cdr.hpp"
 #include "proxy/wire/number.hpp"
 #include "proxy/wire/signature_match.hpp"
@@ -78,7 +79,8 @@ class Encoder {
             for (const auto& item : json.items())
                 if (std::none_of(type.children.begin(), type.children.end(),
                                  [&](const Type& member) { return member.name == item.key(); }))
-                    refuse(path + "." + item.key(), "one of the members " + member_names(type));
+                    refuse(path + "." + item.key(),
+                           "one of the members " + text::join(type.children, ", ", &Type::name));
         for (std::size_t i = 0; i < type.children.size(); ++i) {
             const Type& member = type.children[i];
             const std::string name = member.name.empty() ? fmt::format("[{}]", i) : "." + member.name;
@@ -93,12 +95,6 @@ class Encoder {
     [[noreturn]] static void refuse(const std::string& path, const std::string& expected) {
         throw std::runtime_error(
             fmt::format("{}: expected {}", path.empty() ? "the message" : path.substr(1), expected));
-    }
-
-    static std::string member_names(const Type& type) {
-        std::string names;
-        for (const Type& member : type.children) names += (names.empty() ? "" : ", ") + member.name;
-        return names;
     }
 
     void number(const Type& type, const PlainJson& json, const std::string& path) {

@@ -3,6 +3,7 @@
 
 #include "apps/tandem/output/format.hpp"
 #include "apps/tandem/shm/segment_format.hpp"
+#include "host/text/join.hpp"
 
 #include <fmt/format.h>
 
@@ -15,9 +16,8 @@ namespace tandem::command {
 namespace {
 
 std::string names_of(const std::vector<FollowedPort>& ports) {
-    std::string names;
-    for (const FollowedPort& port : ports)
-        names += (names.empty() ? "" : ", ") + replace_nonprintable(port.port.name);
+    const std::string names = text::join(
+        ports, ", ", [](const FollowedPort& port) { return replace_nonprintable(port.port.name); });
     return names.empty() ? "none" : names;
 }
 

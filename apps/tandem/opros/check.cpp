@@ -12,6 +12,7 @@
 #include "host/opros/engine/profile/type_profile.hpp"
 
 #include <algorithm>
+#include <boost/algorithm/string/erase.hpp>
 #include <fmt/format.h>
 #include <functional>
 #include <map>
@@ -55,16 +56,9 @@ std::vector<std::string> find_type_profile_errors(const engine::ComponentProfile
     return errors;
 }
 
-namespace fs = std::filesystem;
-
-/// Removes every occurrence.
-void remove(std::string& text, const std::string& part) {
-    for (std::size_t at; (at = text.find(part)) != std::string::npos;) text.erase(at, part.size());
-}
-
 /// Removes std::, const, reference and spaces, so that both sides are comparable. ReturnType is another name of int.
 std::string normalized(std::string type) {
-    for (const char* part : {"std::", "const ", " const", "&", " "}) remove(type, part);
+    for (const char* part : {"std::", "const ", " const", "&", " "}) boost::erase_all(type, part);
     return type == "ReturnType" ? "int" : type;
 }
 
@@ -148,9 +142,8 @@ std::vector<ProfilePort> profile_ports(const engine::ComponentProfile& profile) 
 
 // Removes white space and std::, because profiles spell types freely, for example `vector< unsigned char >`.
 std::string normalized_type(std::string type) {
-    type.erase(std::remove_if(type.begin(), type.end(), [](unsigned char c) { return std::isspace(c); }),
-               type.end());
-    for (auto at = type.find("std::"); at != std::string::npos; at = type.find("std::")) type.erase(at, 5);
+    std::erase_if(type, [](unsigned char c) { return std::isspace(c); });
+    boost::erase_all(type, "std::");
     return type;
 }
 

@@ -4,6 +4,7 @@
 #include "apps/tandem/build/folder/source_text.hpp"
 #include "apps/tandem/output/print_note.hpp"
 #include "host/opros/engine/profile/profile_kind.hpp"
+#include "host/text/join.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -113,9 +114,8 @@ engine::ComponentProfile select_component_profile(const fs::path& folder, const 
     if (all.empty())
         throw std::runtime_error("no component profile (XML with <component_profile>) in " + folder.string() +
                                  ", its profile/ or the folder above; give one with --profile FILE");
-    std::string names;
-    for (const auto& each : all)
-        names += (names.empty() ? "" : ", ") + each.location.file.lexically_proximate(folder).string();
+    const std::string names = text::join(
+        all, ", ", [&](const auto& each) { return each.location.file.lexically_proximate(folder).string(); });
     const auto& first = all.front();
     if (std::all_of(all.begin(), all.end(),
                     [&](const auto& each) { return each.library_name == first.library_name; })) {

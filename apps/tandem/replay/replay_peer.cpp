@@ -2,6 +2,7 @@
 #include "apps/tandem/replay/replay_peer.hpp"
 
 #include "host/log/log.hpp"
+#include "host/text/join.hpp"
 #include "proxy/link/protocol/control.hpp"
 #include "proxy/link/wait_mode.hpp"
 #include "shm/inspect/observer.hpp"
@@ -35,9 +36,9 @@ link::LinkOptions options_of(const std::string& name) {
 /// Returns a port's type for a message.
 std::string type_of(const link::Port& port) {
     if (link::is_data_port(port.kind)) return port.signature;
-    std::string text;
-    for (const auto& operation : port.operations)
-        text += (text.empty() ? "" : "; ") + operation.name + " " + operation.signature;
+    const std::string text = text::join(port.operations, "; ", [](const auto& operation) {
+        return operation.name + " " + operation.signature;
+    });
     return text.empty() ? "no operations" : text;
 }
 

@@ -6,6 +6,7 @@
 #include "apps/tandem/output/print_note.hpp"
 #include "apps/tandem/rtm/commands.hpp"
 #include "apps/tandem/rtm/modules.hpp"
+#include "host/text/join.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -16,12 +17,6 @@
 
 namespace tandem::command {
 namespace {
-
-std::string names_of(const std::vector<Module>& modules) {
-    std::string names;
-    for (const auto& each : modules) names += (names.empty() ? "" : ", ") + each.name;
-    return names;
-}
 
 // Selects the modules to build. A library's name must be its module's, because rtm_host loads X.so by calling XInit(),
 // or rtc_init() if there is none.
@@ -36,7 +31,8 @@ std::vector<Module> select_modules(const RtmBuildOptions& options, const std::ve
                                  " or below defines a module function void NAMEInit(RTC::Manager*); if a "
                                  "macro or an included file defines it, name the module with --name NAME");
     if (all.size() > 1 && !options.sources.sources.empty())
-        throw std::runtime_error(options.folder.string() + " has the modules " + names_of(all) +
+        throw std::runtime_error(options.folder.string() + " has the modules " +
+                                 text::join(all, ", ", &Module::name) +
                                  "; choose the module for --source with --name NAME");
     return all;
 }
@@ -79,7 +75,7 @@ int rtm_build(const RtmBuildOptions& options) {
     if (failed.empty()) return 0;
     throw std::runtime_error(
         fmt::format("{} of the {} modules in {} were not built: {} (see the lines above)", failed.size(),
-                    selected.size(), options.folder.string(), names_of(failed)));
+                    selected.size(), options.folder.string(), text::join(failed, ", ", &Module::name)));
 }
 
 } // namespace tandem::command

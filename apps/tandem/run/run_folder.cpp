@@ -10,6 +10,7 @@
 #include "host/opros/engine/profile/xml_file.hpp"
 #include "host/rtm/runtime/configuration/conf_check.hpp"
 #include "host/rtm/runtime/configuration/conf_file.hpp"
+#include "host/text/join.hpp"
 
 #include <optional>
 #include <stdexcept>
@@ -20,9 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string join_names(const std::vector<fs::path>& files) {
-    std::string names;
-    for (const auto& file : files) names += (names.empty() ? "" : ", ") + file.filename().string();
-    return names;
+    return text::join(files, ", ", [](const fs::path& file) { return file.filename().string(); });
 }
 
 /// Returns the kind of a profile in the start folder of opros_host; nullopt for a component's data file.

@@ -8,6 +8,7 @@
 #include "apps/tandem/top/inside_connections.hpp"
 #include "apps/tandem/top/named_links.hpp"
 #include "host/process/run_command.hpp"
+#include "host/text/join.hpp"
 
 #include <fmt/format.h>
 
@@ -50,9 +51,8 @@ std::string inside_text(const monitor::State& state) {
     const auto connections = inside_connections(state);
     for (const auto& host : state.hosts) {
         if (!host.inventory) continue;
-        std::string names;
-        for (const auto& component : host.inventory->components)
-            names += (names.empty() ? "" : ", ") + component.name;
+        const std::string names = text::join(host.inventory->components, ", ",
+                                             [](const auto& component) { return component.name; });
         text += fmt::format("{} (pid {}): {}\n", host.program, host.pid, names);
         for (const auto& [from_host, to_host, from, to] : connections)
             if (from_host == &host)

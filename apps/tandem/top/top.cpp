@@ -7,6 +7,7 @@
 #include "apps/tandem/output/table.hpp"
 #include "apps/tandem/top/commands.hpp"
 #include "apps/tandem/top/named_links.hpp"
+#include "host/text/join.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -43,11 +44,9 @@ std::string host_of(const LinkState& link, shm::Side side) {
 std::string hosts_table(const std::vector<monitor::HostState>& hosts) {
     Table table({"HOST", ">PID", ">CPU %", ">MEMORY", ">THREADS", "LINKS"});
     for (const auto& host : hosts) {
-        std::string links;
-        for (const auto& link : host.links) links += (links.empty() ? "" : ", ") + link;
         table.add_row({host.program, std::to_string(host.pid), fmt::format("{:.1f}", host.usage.cpu_percent),
                        format_bytes(host.usage.resident_bytes), std::to_string(host.usage.thread_count),
-                       links});
+                       text::join(host.links, ", ")});
     }
     return table.empty() ? "" : table.text() + "\n";
 }

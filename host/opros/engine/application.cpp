@@ -10,6 +10,7 @@
 #include "host/opros/engine/profile/start_order.hpp"
 #include "host/process/bounded_call.hpp"
 #include "host/process/published/notices.hpp"
+#include "host/text/join.hpp"
 
 #include <fmt/format.h>
 
@@ -327,8 +328,8 @@ void Application::unload_libraries() {
 void Application::step(const std::string& name) {
     ComponentHost* component = find_component(name);
     if (!component) {
-        std::string known;
-        for (const auto& each : components_) known += (known.empty() ? "" : ", ") + each->name();
+        const std::string known =
+            text::join(components_, ", ", [](const auto& each) { return each->name(); });
         throw std::runtime_error("no component '" + name + "', the application has " + known);
     }
     std::string thrown = component->execute();

@@ -16,6 +16,7 @@
 #include "host/rtm/runtime/logging/logger.hpp"
 #include "host/rtm/runtime/manager/manager_options.hpp"
 #include "host/rtm/runtime/manager/probe_module.hpp"
+#include "host/text/join.hpp"
 #include "host/text/printable.hpp"
 #include "shm/segment/dead_segments.hpp"
 #include <algorithm>
@@ -121,9 +122,9 @@ void flush_logs() {
 
 // Limits the time of the static destructors of component libraries, which run after main().
 void bound_static_destructors(RTC::Manager& manager) {
-    std::string libraries;
-    for (const auto& module : manager.getLoadedModules())
-        libraries += (libraries.empty() ? "" : " or ") + module.getProperty("module_file_path");
+    const std::string libraries =
+        tandem::text::join(manager.getLoadedModules(), " or ",
+                           [](const auto& module) { return module.getProperty("module_file_path"); });
     if (libraries.empty()) return;
     tandem::process::set_exit_timeout(std::chrono::seconds(2),
                                       "rtm_host: " + tandem::text::printable_line(libraries) +

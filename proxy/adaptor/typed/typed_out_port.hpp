@@ -22,7 +22,6 @@ class TypedOutPort final : public OutputDataPortInterface, private engine::Arriv
 
     /// `peer` is the port's entry in the peer's table; `convert` is that of check_type(). The channel must outlive this
     /// port.
-    /// port.
     TypedOutPort(link::Port peer, link::ChannelReader& channel, SetListener set_listener,
                  std::string convert = "");
     ~TypedOutPort() override { clearConnection(); }

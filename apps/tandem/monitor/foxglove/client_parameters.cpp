@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/monitor/foxglove/client_parameters.hpp"
 
+#include "host/text/join.hpp"
 #include "proxy/interceptor/model.hpp"
 
 #include <fmt/format.h>
@@ -51,9 +52,7 @@ std::string text_of(const std::string& name, const PlainJson& value) {
     if (value.is_number() || value.is_boolean()) return value.dump();
     if (!value.is_array() || value.empty())
         throw std::runtime_error(name + ": expected a string, a number, a boolean or a list of these");
-    std::string list;
-    for (const auto& item : value) list += (list.empty() ? "" : ",") + text_of(name, item);
-    return list;
+    return text::join(value, ",", [&](const PlainJson& item) { return text_of(name, item); });
 }
 
 } // namespace

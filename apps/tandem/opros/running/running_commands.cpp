@@ -11,7 +11,7 @@ namespace tandem::command {
 namespace {
 
 // The last lines of each command's --help.
-constexpr const char* addresses =
+constexpr const char* names_of_components =
     "COMPONENT is the name of a component in the application of a running opros_host of this user. If "
     "several\n"
     "hosts have it, write HOST/COMPONENT with the process id or the application of the host, see tandem "
@@ -20,14 +20,15 @@ constexpr const char* addresses =
 
 CLI::App* add_running_command(CLI::App& opros, const char* name, const char* brief,
                               OprosClientOptions& client, const std::string& details) {
-    CLI::App* command = add_command(opros, name, brief, details + (details.empty() ? "" : "\n") + addresses);
+    CLI::App* command =
+        add_command(opros, name, brief, details + (details.empty() ? "" : "\n") + names_of_components);
     command->add_option("--timeout", client.timeout_s, "time limit for each request, in seconds (5)")
         ->check(options::number_between(0.1, 600.));
     command->add_flag("--json", client.json, "print JSON instead of text");
     return command;
 }
 
-void add_list(CLI::App& opros, Action& selected) {
+void add_opros_list(CLI::App& opros, Action& selected) {
     auto options = std::make_shared<OprosClientOptions>();
     add_running_command(opros, "list", "Lists the components of running hosts, with their states", *options,
                         "A host that does not answer is listed as UNREACHABLE.")
@@ -35,7 +36,7 @@ void add_list(CLI::App& opros, Action& selected) {
 }
 
 // start, stop and recover: the same command line for all three.
-void add_transitions(CLI::App& opros, Action& selected) {
+void add_opros_transitions(CLI::App& opros, Action& selected) {
     struct Options {
         OprosClientOptions client;
         std::vector<std::string> components;
@@ -55,7 +56,7 @@ void add_transitions(CLI::App& opros, Action& selected) {
                    "An AdaptorComp also resets the RTCs in ERROR behind its link.");
 }
 
-void add_conf(CLI::App& opros, Action& selected) {
+void add_opros_conf(CLI::App& opros, Action& selected) {
     struct Options {
         OprosClientOptions client;
         OprosConfOptions conf;
@@ -78,9 +79,9 @@ void add_conf(CLI::App& opros, Action& selected) {
 } // namespace
 
 void add_running_opros_commands(CLI::App& opros, Action& selected) {
-    add_list(opros, selected);
-    add_transitions(opros, selected);
-    add_conf(opros, selected);
+    add_opros_list(opros, selected);
+    add_opros_transitions(opros, selected);
+    add_opros_conf(opros, selected);
 }
 
 } // namespace tandem::command

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/opros/engine/node/node_adaptor.hpp"
 
+#include "host/text/join.hpp"
 #include "host/text/split_names.hpp"
 
 #include <fmt/format.h>
@@ -42,9 +43,7 @@ std::string interfaces(const NodePart& part) {
             names[connection.source.text()] = connection.target.port + "." + connection.target.port;
         }
     }
-    std::string list;
-    for (const auto& [port, name] : names) list += (list.empty() ? "" : ", ") + port + "=" + name;
-    return list;
+    return text::join(names, ", ", [](const auto& each) { return each.first + "=" + each.second; });
 }
 
 } // namespace

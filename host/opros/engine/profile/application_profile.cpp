@@ -4,6 +4,7 @@
 #include "host/opros/engine/profile/duplicate_connections.hpp"
 #include "host/opros/engine/profile/port_type.hpp"
 #include "host/opros/engine/profile/profile_structure.hpp"
+#include "host/text/join.hpp"
 
 #include <set>
 
@@ -171,9 +172,7 @@ class AssemblyReader {
     /// Returns an empty string if the profile lists a component of this name, otherwise an error.
     std::string unknown_component_error(const std::string& name) const {
         if (component_names_.count(name) != 0) return "";
-        std::string known;
-        for (const std::string& each : component_names_) known += (known.empty() ? "" : ", ") + each;
-        return "unknown component '" + name + "', expected one of " + known;
+        return "unknown component '" + name + "', expected one of " + text::join(component_names_, ", ");
     }
 
     void require_known_component(const pugi::xml_node& node, const std::string& name) const {

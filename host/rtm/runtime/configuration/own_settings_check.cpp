@@ -2,6 +2,7 @@
 #include "host/rtm/runtime/configuration/own_settings_check.hpp"
 #include "host/rtm/runtime/configuration/conf_check.hpp"
 #include "host/rtm/runtime/configuration/conf_keys.hpp"
+#include "host/text/join.hpp"
 #include "host/text/nearest_name.hpp"
 #include <algorithm>
 #include <coil/stringutil.h>
@@ -11,14 +12,10 @@
 namespace RTC {
 namespace {
 
-bool starts_with(const std::string& text, const std::string& start) {
-    return text.compare(0, start.size(), start) == 0;
-}
-
 /// NAME of `conf.SET.NAME`; empty for other keys, and for sets such as __widget__, which describe parameters.
 std::string parameter_of(const std::string& key) {
     const auto dot = key.find('.', 5);
-    if (!starts_with(key, "conf.") || starts_with(key, "conf.__") || dot == std::string::npos) return "";
+    if (!key.starts_with("conf.") || key.starts_with("conf.__") || dot == std::string::npos) return "";
     const std::string name = key.substr(dot + 1);
     return name == "description" ? "" : name; // of the set
 }
@@ -48,7 +45,7 @@ std::string unknown_port_error(RTObject_impl& component, const std::string& key)
         const std::string name(profile->port_profiles[i].name); // INSTANCE.NAME, and NAME may have dots
         names.push_back(
             name.substr(std::min(name.size(), std::string(component.getInstanceName()).size() + 1)));
-        if (starts_with(key.substr(key.find('.', 5) + 1), names.back() + ".")) return "";
+        if (key.substr(key.find('.', 5) + 1).starts_with(names.back() + ".")) return "";
     }
     const std::string meant = tandem::text::did_you_mean(parts[2], names);
     return meant.empty() ? "" : key + ": the component has no port " + parts[2] + meant;
@@ -60,10 +57,10 @@ std::string meant_context_setting(const std::string& key) {
     constexpr std::size_t likely_typing_error = 2;
     const std::string rate = "exec_cxt.periodic.rate";
     const std::string normal = coil::normalize(key);
-    if (normal == "rate" || (starts_with(normal, "exec") && normal.ends_with("rate"))) return rate;
+    if (normal == "rate" || (normal.starts_with("exec") && normal.ends_with("rate"))) return rate;
     for (const auto& known : conf_keys()) {
         const std::string name = known.name;
-        if (!starts_with(name, "exec_cxt.") || key.size() > 2 * name.size()) continue;
+        if (!name.starts_with("exec_cxt.") || key.size() > 2 * name.size()) continue;
         const bool lacks_begin = key.find('.') != std::string::npos && name.ends_with("." + normal);
         if (lacks_begin || tandem::text::edit_distance(normal, name) <= likely_typing_error) return name;
     }
@@ -86,9 +83,7 @@ std::string unknown_context_error(const std::string& key, RTObject_impl& compone
 }
 
 std::string list(const std::vector<std::string>& names) {
-    std::string text;
-    for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
-    return text.empty() ? "none" : text;
+    return names.empty() ? "none" : tandem::text::join(names, ", ");
 }
 
 } // namespace
@@ -101,7 +96,7 @@ std::vector<std::string> check_own_settings(RTObject_impl& component, const coil
     };
     std::vector<std::string> lines;
     for (const auto& key : own_settings.propertyNames()) {
-        if (starts_with(key, "exec_cxt.") || starts_with(key, "ec.") || starts_with(key, "port.")) {
+        if (key.starts_with("exec_cxt.") || key.starts_with("ec.") || key.starts_with("port.")) {
             std::string error = setting_error(key, own_settings.getProperty(key));
             if (error.empty()) error = unknown_port_error(component, key);
             if (error.empty()) error = unknown_context_error(key, component);
