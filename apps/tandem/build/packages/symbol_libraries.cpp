@@ -58,7 +58,6 @@ const SymbolLibrary table[] = {
     {"libusb_", "libusb-1.0", "usb-1.0"},
     {"ftdi_", "libftdi1", "ftdi1"},
     {"spnav_", "spnav", "spnav"},
-    {"pigpio_", "", "pigpiod_if2"},
     {"hid_", "hidapi-libusb", "hidapi-libusb"},
     {"LibSerial::", "libserial", "serial"},
     {"mosquitto_", "libmosquitto", "mosquitto"},

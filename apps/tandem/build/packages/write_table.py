@@ -42,7 +42,7 @@ META = [(r"^libopencv-(?!apps).*-dev$", "libopencv-dev", "opencv4"), (r"^(libboo
         (r"^wx3\.2-headers$", "libwxgtk3.2-dev", "")]
 # Components of robots are older than Debian: of several packages with the header, these come first.
 PREFERRED = {"libgtk2.0-dev", "libgtkmm-2.4-dev", "liblua5.3-dev", "libsdl1.2-dev", "libopenni-dev", "libusb-dev", "qtbase5-dev",
-             "libpulse-dev", "libcurl4-openssl-dev", "libserial-dev", "libresample1-dev", "libpigpiod-if-dev",
+             "libpulse-dev", "libcurl4-openssl-dev", "libserial-dev", "libresample1-dev",
              "wx3.2-headers"}
 # Include folders below /usr/include whose name does not end with a version like -1.0.
 ROOTS = {"eigen3", "opencv4", "qt5", "SDL", "SDL2", "libxml2", "libpng16", "openni2", "libftdi1", "ni", "jsoncpp", "irrlicht",
