@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <regex>
 #include <sstream>
 #include <utility>
@@ -32,6 +33,12 @@ std::vector<std::string> included_names(const fs::path& file) {
         if (end != std::string::npos) names.push_back(line.substr(begin + 1, end - begin - 1));
     }
     return names;
+}
+
+bool declares_interface(const fs::path& idl) {
+    std::istringstream words(strip_comments(read_text(idl)));
+    return std::find(std::istream_iterator<std::string>(words), {}, "interface") !=
+           std::istream_iterator<std::string>();
 }
 
 class Scanner {
@@ -115,17 +122,14 @@ class Scanner {
     // Components that RTCBuilder makes for tests include XSVC_impl.h, the implementation of services, also for an X.idl that
     // only has data types. Returns the header with the types.
     std::string skeleton_without_services(const std::string& name) const {
-        static const std::regex implementation("(\\w+)SVC_impl\\.h");
-        static const std::regex interface("\\binterface\\b");
+        static const std::string implementation = "SVC_impl.h";
         static const std::set<std::string> of_openrtm{"BasicDataType", "ExtendedDataTypes",
                                                       "InterfaceDataTypes"};
-        std::smatch found;
-        if (!std::regex_match(name, found, implementation)) return "";
-        const std::string base = found[1];
+        if (!name.ends_with(implementation)) return "";
+        const std::string base = name.substr(0, name.size() - implementation.size());
         if (of_openrtm.count(base) != 0) return "rtm/idl/" + base + "Skel.h";
         const auto idl = idl_file("", base + ".idl");
-        const bool has_services = idl.empty() || std::regex_search(strip_comments(read_text(idl)), interface);
-        return has_services ? "" : base + "Skel.h";
+        return idl.empty() || declares_interface(idl) ? "" : base + "Skel.h";
     }
 
     // Returns the file whose path ends with the name, preferably in the same case.

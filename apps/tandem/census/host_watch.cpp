@@ -23,7 +23,8 @@ using Clock = std::chrono::steady_clock;
 using process::ComponentState;
 using namespace std::chrono_literals;
 
-constexpr auto start_limit = 30s;                         // the host's own limits are shorter
+constexpr auto start_limit = 30s; // the host's own limits are shorter
+constexpr auto stop_limit = 5s;
 constexpr std::size_t max_output = std::size_t{32} << 20; // bytes
 constexpr const char* marks[] = {"crashed in", "[critical]", "[error]",
                                  "error"}; // in the order of their weight
@@ -160,13 +161,16 @@ class HostWatch {
 
     HostRecord end() {
         const bool was_running = host_.running();
-        const bool in_order = supervisor_.stop(host_);
+        const bool in_order = supervisor_.stop_all(stop_limit, [this](const auto& events) {
+            for (const auto& [host, line] : events.lines) first_error_.add(line);
+        });
         if (was_running && !in_order && record_.runs) {
             record_.runs = false;
             const auto& ended = host_.process.poll();
-            record_.error = ended && (!ended->signalled || ended->code != SIGKILL)
-                                ? fmt::format("runs, but its host {} at its end", ended->text())
-                                : "runs, but does not end within 5 s of SIGTERM";
+            record_.error =
+                ended && (!ended->signalled || ended->code != SIGKILL)
+                    ? fmt::format("runs, but its host {} at its end: {}", ended->text(), first_error_.text())
+                    : fmt::format("runs, but does not end within {} s of SIGTERM", stop_limit.count());
         }
         return record_;
     }

@@ -2,27 +2,40 @@
 #include "apps/tandem/build/folder/autoconf.hpp"
 #include "apps/tandem/build/folder/source_text.hpp"
 
+#include <algorithm>
 #include <cctype>
-#include <regex>
 #include <set>
 #include <sstream>
+#include <string_view>
 
 namespace tandem::command {
 namespace {
 
 using Words = std::vector<std::string>;
 
-// Removes comments of m4 and lines that are comments of the shell.
+bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+
+bool is_identifier(const std::string& name) {
+    return !name.empty() && std::isdigit(static_cast<unsigned char>(name[0])) == 0 &&
+           std::all_of(name.begin(), name.end(), is_word);
+}
+
+// Removes comments of m4, and lines that are comments of the shell.
 std::string without_comments(const std::string& text) {
-    static const std::regex comment("(^|[\\s)])dnl(\\s.*|$)|^\\s*#.*");
     std::istringstream lines(text);
     std::string code;
-    for (std::string line; std::getline(lines, line);) code += std::regex_replace(line, comment, "$1") + '\n';
+    for (std::string line; std::getline(lines, line); code += line + '\n') {
+        const auto begin = line.find_first_not_of(" \t");
+        if (begin != std::string::npos && line[begin] == '#') line.clear();
+        for (auto at = line.find("dnl"); at != std::string::npos; at = line.find("dnl", at + 1))
+            if ((at == 0 || !is_word(line[at - 1])) && (at + 3 == line.size() || !is_word(line[at + 3])))
+                line.resize(at);
+    }
     return code;
 }
 
 // Removes blanks and quotes of m4 around an argument.
-std::string unquote(std::string text) {
+std::string_view unquote(std::string_view text) {
     for (;;) {
         const auto begin = text.find_first_not_of(" \t\n"), end = text.find_last_not_of(" \t\n");
         if (begin == std::string::npos) return "";
@@ -46,13 +59,11 @@ Words read_arguments(const std::string& text, std::size_t& at) {
         else
             arguments.back() += c;
     }
-    for (auto& argument : arguments) argument = unquote(argument);
+    for (auto& argument : arguments) argument = std::string(unquote(argument));
     return arguments;
 }
 
 bool is_plain(const std::string& value) { return value.find_first_of("$;#\\\n`()") == std::string::npos; }
-
-bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
 class Reader {
   public:
@@ -99,8 +110,7 @@ class Reader {
     }
 
     void add(const std::string& name, const std::string& value) {
-        static const std::regex identifier("[A-Za-z_]\\w*");
-        if (std::regex_match(name, identifier) && is_plain(value)) definitions_.push_back(name + "=" + value);
+        if (is_identifier(name) && is_plain(value)) definitions_.push_back(name + "=" + value);
     }
 
     void add_package(const char* name_macro, const char* version_macro, const std::string& name,

@@ -93,6 +93,9 @@ const char* origin_outside_debian(const std::string& header) {
         {"librealsense", "librealsense of Intel"},
         {"mraa", "mraa of Intel"},
         {"wiringPi", "WiringPi"},
+        {"pigpio", "the C library of pigpio"}, // libpigpiod-if-dev includes pigpio.h, which no package has
+        {"mc_control/", "mc_rtc"},
+        {"mc_rtc/", "mc_rtc"},
     };
     for (const auto& [begin, origin] : origins)
         if (header.rfind(begin, 0) == 0) return origin;

@@ -73,6 +73,9 @@ TEST_CASE("a remedy that the build already uses is not advised again") {
         return find_remedy(error, {nowhere, modules, libraries, root.path()});
     };
     CHECK(remedy(missing("ode/ode.h")) == "apt install libode-dev");
+    CHECK_THAT(
+        remedy(missing("pigpiod_if2.h")),
+        Catch::StartsWith("pigpiod_if2.h belongs to the C library of pigpio, which Debian does not package"));
     CHECK(remedy(missing("frames.hpp")) == "if kdl/frames.hpp is meant: apt install liborocos-kdl-dev");
     CHECK(remedy(undefined("dWorldCreate")) == "apt install libode-dev, and add --pkg-config ode");
     CHECK_THAT(remedy(missing("MySVC_impl.h")), Catch::StartsWith("RTCBuilder makes it from My.idl"));

@@ -88,6 +88,9 @@ TEST_CASE(
     write_rtc(folder, "Lacking", "", "#include <ode/no_such_header.h>\n");
     write_rtc(folder, "Broken", "this is no C++;");
     write_rtc(folder, "Failing", "RTC_ERROR((\"no arm at /dev/arm\")); return RTC::RTC_ERROR;");
+    write_rtc(folder, "Lingering",
+              "return RTC::RTC_OK; }\n  ~Lingering() override { for (;;) pause(); }\n"
+              "  RTC::ReturnCode_t onReset(RTC::UniqueId) override {");
     // Reads its input, writes a file and makes a daemon.
     const std::string pid_file = folder.path() / "daemon";
     write_rtc(folder, "Rude",
@@ -101,9 +104,9 @@ TEST_CASE(
     INFO(result.output << result.errors);
     CHECK(result.exit_code == 2);
     const auto census = result.json();
-    CHECK(census["found"] == 7);
-    CHECK(census["built"] == 5);
-    CHECK(census["load"] == 5);
+    CHECK(census["found"] == 8);
+    CHECK(census["built"] == 6);
+    CHECK(census["load"] == 6);
     CHECK(census["run"] == 2);
     CHECK(row(census, "Good")["runs"] == true);
     CHECK(row(census, "Good")["cycles"] > 10);
@@ -113,6 +116,9 @@ TEST_CASE(
     CHECK_THAT(error_of(census, "Hanging"), Catch::Contains("onActivated"));
     CHECK_THAT(error_of(census, "Failing"),
                Catch::StartsWith("goes to its error state: Failing0: no arm at /dev/arm"));
+    CHECK_THAT(error_of(census, "Lingering"),
+               Catch::StartsWith("runs, but its host exited with 1 at its end: ") &&
+                   Catch::Contains("the destructor of Lingering0"));
     CHECK_THAT(error_of(census, "Lacking"),
                Catch::Contains("ode/no_such_header.h") && Catch::Contains("libode-dev"));
     CHECK_THAT(error_of(census, "Broken"), Catch::Contains("Broken.cpp:") && Catch::Contains("error: "));
