@@ -7,6 +7,7 @@
 #include "apps/tandem/build/folder/project_files.hpp"
 #include "apps/tandem/build/folder/source_text.hpp"
 #include "apps/tandem/build/include_scan.hpp"
+#include "apps/tandem/build/missing_libraries.hpp"
 #include "apps/tandem/build/missing_names.hpp"
 #include "apps/tandem/build/packages/header_packages.hpp"
 #include "apps/tandem/build/packages/installed_library.hpp"
@@ -14,6 +15,7 @@
 #include "apps/tandem/build/project/cmake_package.hpp"
 #include "apps/tandem/build/project/cmake_projects.hpp"
 #include "apps/tandem/build/remedy.hpp"
+#include "apps/tandem/build/replace_file.hpp"
 #include "apps/tandem/build/select_sources.hpp"
 #include "apps/tandem/output/print.hpp"
 #include "apps/tandem/output/print_note.hpp"
@@ -24,6 +26,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <map>
 #include <optional>
 #include <set>
@@ -50,6 +53,7 @@ struct Plugin {
     bool needs_cv_h =
         false; ///< uses OpenCV's C API through headers that contained it in OpenCV 2 and 3 but not in 4
     std::map<std::string, std::string> missing_names{}; ///< with their declarations
+    MissingLibraries linked{};                          ///< that the linker has missed
 };
 
 constexpr char names_header[] = "tandem_missing_names.h"; // beside the forwarding headers
@@ -78,6 +82,7 @@ const char* languages(const std::vector<fs::path>& sources) {
 // Returns the pkg-config modules that the component's includes ask for.
 std::set<std::string> used_modules(const Plugin& plugin) {
     auto modules = plugin.includes.pkg_config;
+    modules.insert(plugin.linked.modules.begin(), plugin.linked.modules.end());
     for (const auto& [dir, library] : plugin.installed)
         if (!library.pkg_config.empty()) modules.insert(library.pkg_config);
     return modules;
@@ -113,12 +118,23 @@ int standard_of(const Plugin& plugin, const PluginBuildOptions& options) {
 // Returns the libraries to link. Projects also name libraries that their sources do not need here.
 std::string libraries(const Plugin& plugin, const PluginBuildOptions& options) {
     const auto& target = plugin.sources.target;
-    std::vector<std::string> files = options.libraries, names;
+    std::vector<std::string> files = options.libraries,
+                             names(plugin.linked.names.begin(), plugin.linked.names.end());
     for (const auto& library : target.libraries) (library[0] == '/' ? files : names).push_back(library);
     for (const auto& [dir, library] : plugin.installed)
         for (const auto& file : library.libraries) files.push_back(file.string());
     return cmake_argument("LIBRARIES", files) + cmake_argument("LIBRARIES_IF_FOUND", names) +
            cmake_argument("LIBRARY_DIRS", absolute_names(target.library_dirs));
+}
+
+// A component with copies of a library's headers, for example of OpenCV 2, is compiled with those of the installed
+// version, because the functions of the copies are not there.
+std::string headers_first(const Plugin& plugin) {
+    const auto& modules = plugin.linked.modules;
+    if (modules.empty()) return "";
+    return fmt::format("pkg_check_modules(LINKED QUIET {})\n"
+                       "target_include_directories({} BEFORE PRIVATE ${{LINKED_INCLUDE_DIRS}})\n",
+                       fmt::join(modules, " "), plugin.name);
 }
 
 /// Returns the CMakeLists.txt that builds the plugin in the folder `build`. `forwards`: folder of the
@@ -143,7 +159,7 @@ std::string cmake_project(const Plugin& plugin, const PluginBuildOptions& option
            cmake_argument("PKG_CONFIG", options.pkg_config) +
            cmake_argument("PKG_CONFIG_IF_FOUND", {modules.begin(), modules.end()}) +
            cmake_argument("FORWARDS", {forwards.string()}) +
-           fmt::format("\n  CXX_STANDARD {})\n", standard_of(plugin, options));
+           fmt::format("\n  CXX_STANDARD {})\n", standard_of(plugin, options)) + headers_first(plugin);
 }
 
 std::vector<fs::path> checkout_files(const fs::path& folder) {
@@ -151,11 +167,23 @@ std::vector<fs::path> checkout_files(const fs::path& folder) {
     return checkout.empty() ? std::vector<fs::path>{} : list_files_below(checkout);
 }
 
+// Returns the advice to install a package whose headers were found in the repository instead: such a copy of a library is
+// often one for Windows.
+std::string package_of_neighbours(const NeighbourHeaders& neighbours) {
+    for (const auto& [header, file] : neighbours)
+        if (const auto found = find_package_of_header(header);
+            found && found->certain && installed_files(found->package).empty())
+            return fmt::format("apt install {}: its {} replaces the one of this repository", found->package,
+                               header);
+    return "";
+}
+
 // Returns the advice that follows the first error of a failed step.
 std::string advice(const std::string& error, const Plugin& plugin, const PluginBuildOptions& options) {
     const auto& folder = options.folder;
     BuildFacts facts{folder, options.pkg_config, options.libraries};
     for (const auto& module : used_modules(plugin)) facts.pkg_config.push_back(module);
+    for (const auto& name : plugin.linked.names) facts.libraries.push_back(name);
     std::string text = find_remedy(error, facts);
     if (text.find("--source FILE") != std::string::npos) {
         // Files that were left out may define a function that no known library defines. --source replaces the sources
@@ -175,6 +203,9 @@ std::string advice(const std::string& error, const Plugin& plugin, const PluginB
     if (const auto name = dropped_by_opencv(error);
         (plugin.includes.old_opencv || plugin.needs_cv_h) && !name.empty())
         text = "OpenCV 4 no longer has " + name + ": use OpenCV's C++ API";
+    if (const auto package = package_of_neighbours(plugin.neighbours);
+        !package.empty() && !missing_header(error).empty())
+        text = package;
     return text.empty() ? "" : "; " + text;
 }
 
@@ -332,7 +363,8 @@ void compile(Plugin& plugin, const PluginBuildOptions& options, const fs::path& 
         if (!output) return;
         if (!add_neighbours(*output, options.folder, plugin.neighbours) &&
             !add_installed(*output, plugin.installed) && !add_cv_h(*output, plugin) &&
-            !add_names(*output, plugin.missing_names) && !add_sources(*output, options, plugin))
+            !add_names(*output, plugin.missing_names) && !add_sources(*output, options, plugin) &&
+            !add_libraries(*output, plugin.linked))
             fail(*output, plugin, options, "does not compile");
     }
 }
@@ -355,43 +387,6 @@ void require_plain_names(const PluginBuildOptions& options, const fs::path& outp
     for (const auto& library : options.libraries) require_library(library);
     for (const auto& module : options.pkg_config) require_pkg_config_module(module);
     for (const auto& definition : options.definitions) require_definition(definition);
-}
-
-// Returns whether the file belongs to the repository's contents. Without git, it counts as untracked.
-bool is_tracked(const fs::path& file) {
-    std::error_code ignored;
-    if (!fs::exists(file, ignored) || find_checkout(file.parent_path()).empty()) return false;
-    process::CommandOptions options;
-    options.timeout = std::chrono::seconds(10);
-    options.merge_errors = true;
-    try {
-        return process::run_command({"git", "-C", file.parent_path().string(), "ls-files", "--error-unmatch",
-                                     "--", file.filename().string()},
-                                    options)
-            .succeeded();
-    } catch (const std::system_error&) {
-        return false;
-    }
-}
-
-void tell_replaced(const fs::path& file) {
-    if (is_tracked(file))
-        print_note(
-            "tandem: {} is tracked by git and is replaced; git restore brings it back, --output DIR builds "
-            "elsewhere\n",
-            file.string());
-}
-
-// Replaces the library by rename(2), not by writing into it: a running host may have the old file mapped, and a
-// copy that fails half-way must not leave half a library.
-void replace_library(const fs::path& cmake_output, const fs::path& library) {
-    const fs::path new_file = library.parent_path() / ("." + library.filename().string() + ".new");
-    std::error_code error, ignored;
-    if (fs::copy_file(cmake_output, new_file, fs::copy_options::overwrite_existing, error))
-        fs::rename(new_file, library, error);
-    if (!error) return;
-    fs::remove(new_file, ignored);
-    throw std::runtime_error(library.string() + " cannot be written: " + error.message());
 }
 
 } // namespace

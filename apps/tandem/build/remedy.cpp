@@ -61,18 +61,33 @@ std::vector<std::string> names_of_branches(const std::vector<std::string>& lines
     return names;
 }
 
-/// Returns the macros around the #error in a compiler's error line. Defining any one of them skips the
-/// #error.
-std::vector<std::string> macros_that_avoid(const std::string& error) {
-    static const std::regex place("^(.+):([0-9]{1,7}):[0-9]+: error: #error");
+/// Returns the lines of the file in a compiler's error line, without comments, up to the one with the error; none if the line
+/// names no file.
+std::vector<std::string> lines_to(const std::string& error) {
+    static const std::regex place("^(.+):([0-9]{1,7}):[0-9]+: error: ");
     std::smatch found;
     if (!std::regex_search(error, found, place)) return {};
     std::istringstream text(strip_comments(read_text(found[1].str())));
-    std::vector<std::string> lines;
-    for (std::string line; std::getline(text, line);) lines.push_back(line);
     const auto number = static_cast<std::size_t>(std::stoul(found[2]));
-    if (number == 0 || number > lines.size()) return {};
-    return names_of_branches(lines, number - 1);
+    std::vector<std::string> lines;
+    for (std::string line; lines.size() < number && std::getline(text, line);) lines.push_back(line);
+    return lines.size() == number ? lines : std::vector<std::string>{};
+}
+
+/// Returns the macros around the #error in a compiler's error line. Defining any one of them skips the
+/// #error.
+std::vector<std::string> macros_that_avoid(const std::string& error) {
+    if (error.find(" error: #error") == std::string::npos) return {};
+    const auto lines = lines_to(error);
+    return lines.empty() ? std::vector<std::string>{} : names_of_branches(lines, lines.size() - 1);
+}
+
+/// Returns the keyword of Visual C++ in the source line of a compiler's error line; "" if there is none.
+std::string windows_keyword(const std::string& error) {
+    const auto lines = lines_to(error);
+    for (const std::string keyword : {"__declspec", "__stdcall"})
+        if (!lines.empty() && lines.back().find(keyword) != std::string::npos) return keyword;
+    return "";
 }
 
 bool is_installed(std::string_view package, const BuildFacts& facts) {
@@ -173,8 +188,9 @@ std::string find_remedy(const std::string& error, const BuildFacts& facts) {
     for (const auto& macro : macros_that_avoid(error))
         definitions += (definitions.empty() ? "-D " : ", or -D ") + macro;
     if (!definitions.empty()) return definitions;
-    if (const auto name = unknown_name(error); is_windows_name(name))
-        return name + " belongs to Windows: this source cannot be built on Linux";
+    auto name = unknown_name(error);
+    if (!is_windows_name(name)) name = windows_keyword(error);
+    if (!name.empty()) return name + " belongs to Windows: this source cannot be built on Linux";
     if (error.find("std::exception::exception(const char") != std::string::npos)
         return "only Visual C++ has std::exception with a text: throw std::runtime_error";
     return "";

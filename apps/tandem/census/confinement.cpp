@@ -71,6 +71,8 @@ Confinement::Confinement() {
     folder_ = name;
     setenv("TMPDIR", name.c_str(), 1);
     setenv("XDG_RUNTIME_DIR", name.c_str(), 1);
+    // Without a display, Qt would abort a component that opens a window, for example by OpenCV.
+    if (!std::getenv("DISPLAY") && !std::getenv("WAYLAND_DISPLAY")) setenv("QT_QPA_PLATFORM", "offscreen", 0);
     if (!std::freopen("/dev/null", "r", stdin)) throw std::runtime_error("/dev/null cannot be opened");
     prctl(PR_SET_CHILD_SUBREAPER, 1);
     limit(RLIMIT_CORE, 0);

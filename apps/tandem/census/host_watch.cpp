@@ -75,13 +75,18 @@ std::string message_of(std::string line) {
     return line;
 }
 
+bool is_log_line(const std::string& line) {
+    return line.find("] opros_host: ") != std::string::npos || line.find("] rtm_host: ") != std::string::npos;
+}
+
 /// Keeps the line of a host's output that says most about a failure.
 class FirstError {
   public:
     void add(const std::string& line) {
         bytes_ += line.size() + 1;
         if (line.find_first_not_of(" \t") == std::string::npos) return;
-        const auto before = std::exchange(last_, line);
+        const auto before = last_; // a line that the component has printed
+        if (!is_log_line(line)) last_ = line;
         if (best_ == std::size(marks)) text_ = message_of(line);
         for (std::size_t mark = 0; mark < best_; ++mark)
             if (line.find(marks[mark]) != std::string::npos) {

@@ -3,7 +3,7 @@
 #ifndef TANDEM_ABI_H_
 #define TANDEM_ABI_H_
 
-#define TANDEM_OPROS_ABI 26 // headers: f9d9aea2b442f4a9
+#define TANDEM_OPROS_ABI 27 // headers: d3852649c938b8a7
 
 // Stored as an ELF note in every object file, for the loader. A note, unlike a symbol, needs no linking and cannot
 // clash, and no linker drops it, even with --gc-sections, a version script, hidden visibility, LTO or strip.

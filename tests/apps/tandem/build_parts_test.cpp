@@ -314,6 +314,11 @@ TEST_CASE("an error about a header or a library is followed by a remedy") {
     CHECK(remedy(header + ":14:2: error: #error no SIZE") == "-D SIZE");
     CHECK(remedy("Old.cpp:1:2: error: 'GetTickCount' was not declared in this scope") ==
           "GetTickCount belongs to Windows: this source cannot be built on Linux");
+    const auto camera =
+        folder.write("Old/camera.h", "// for __stdcall\n__declspec(dllexport) int open();\n").string();
+    CHECK(remedy(camera + ":1:1: error: expected unqualified-id").empty());
+    CHECK(remedy(camera + ":2:11: error: expected constructor before '(' token") ==
+          "__declspec belongs to Windows: this source cannot be built on Linux");
     CHECK(remedy("Old.cpp:1:2: error: no matching function for call to 'std::exception::exception(const char "
                  "[5])'") == "only Visual C++ has std::exception with a text: throw std::runtime_error");
     CHECK(remedy("Old.h:1:2: error: 'MINE' does not name a type").empty());

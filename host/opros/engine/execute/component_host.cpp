@@ -3,6 +3,8 @@
 
 #include "host/crash/callback_scope.hpp"
 #include "host/log/log.hpp"
+#include "host/opros/engine/execute/return_code.hpp"
+#include "host/opros/engine/load/device_library.hpp"
 #include "host/opros/engine/load/load_component.hpp"
 #include "host/process/published/inventory.hpp"
 #include "host/process/published/notices.hpp"
@@ -22,11 +24,6 @@ namespace {
 constexpr std::chrono::seconds max_cycle_wait{5};
 // How long a reader of the properties does.
 constexpr std::chrono::seconds max_read_wait{1};
-
-/// Formats a code as ReturnType.h does: common codes are decimal, codes of device components are hexadecimal.
-std::string code_text(ReturnType code) {
-    return code < 1000 ? fmt::format("{}", code) : fmt::format("{:#x}", code);
-}
 
 } // namespace
 
@@ -50,7 +47,7 @@ void ComponentHost::PublishedState::stateChanged(LifecycleState state) {
 
 ComponentHost::ComponentHost(const Subcomponent& entry, ComponentProfile profile,
                              const ComponentHostOptions& options)
-    : name_(entry.name), profile_(std::move(profile)),
+    : name_(entry.name), profile_(std::move(profile)), plugin_dirs_(options.plugin_dirs),
       task_queue_(std::make_shared<TaskQueue>(options.task_queue_capacity, options.task_mode)) {
     const crash::CallbackScope scope(this, name_.c_str(), "its creation", nullptr);
     auto loaded = load_component(profile_, options.plugin_dirs, options.probes.get());
@@ -113,11 +110,15 @@ std::string ComponentHost::run_transition(const char* callback,
     // Clears dlerror(). Device components call dlerror() after dlsym() without clearing it first, and would take an
     // earlier error of other code in this thread for their own.
     dlerror();
+    forget_absent_property(); // of an earlier callback in this thread
     std::string why;
     std::string thrown = run_guarded(callback, [&] {
         try {
             result = (component_.get()->*transition)();
-            why = "it returned code " + code_text(component_->getErrorInfo());
+            if (result == OPROS_SUCCESS) return;
+            const ReturnType code = component_->getErrorInfo();
+            why = "it returned code " + describe_code(code) +
+                  describe_missing_setting(code, *component_, profile_, plugin_dirs_);
         } catch (const MethodInvokeException& error) {
             // A transition, unlike a cycle, is not repeated, so this counts as a failed callback.
             why = std::string("it made a call that failed: ") + error.what();
@@ -184,7 +185,7 @@ void ComponentHost::unload_library() {
 void ComponentHost::log_return_code(const char* callback, ReturnType code, ReturnType& last) {
     if (code != last && code != OPROS_SUCCESS && code != OPROS_SUCCESS_SYNC &&
         code != OPROS_UNSUPPORTED_METHOD)
-        log::warn("component {}: {} returns code {}", name_, callback, code_text(code));
+        log::warn("component {}: {} returns code {}", name_, callback, describe_code(code));
     last = code;
 }
 
@@ -303,7 +304,7 @@ std::string ComponentHost::stop_inactive(LifecycleState state) {
     std::string thrown = run_guarded("onStop", [&] { result = component_->stop(); });
     if (!thrown.empty() || result == OPROS_SUCCESS) return thrown;
     if (result != OPROS_PRECONDITION_NOT_MET)
-        return fmt::format("component {}: stop failed, it returned code {}", name_, code_text(result));
+        return fmt::format("component {}: stop failed, it returned code {}", name_, describe_code(result));
     return state == OPROS_CS_ERROR ? fmt::format("component {} is in ERROR; reset it first", name_) : "";
 }
 

@@ -162,6 +162,7 @@ class ComponentHost {
 
     std::string name_;
     ComponentProfile profile_;
+    std::vector<std::filesystem::path> plugin_dirs_;
     // Declared before the instance and so destroyed after it, because the code of the instance is in the library.
     std::shared_ptr<plugin::Library> library_;
     std::shared_ptr<Component> component_;

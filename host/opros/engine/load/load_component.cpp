@@ -2,6 +2,7 @@
 #include "host/opros/engine/load/load_component.hpp"
 
 #include "host/log/log.hpp"
+#include "host/opros/engine/load/device_library.hpp"
 #include "host/opros/engine/profile/component_profile.hpp"
 #include "host/opros/engine/profile/xml_file.hpp"
 #include "host/plugin/abi.hpp"
@@ -215,46 +216,11 @@ Component* call_factory(plugin::Library& library) {
     throw SetupError("getComponent() of " + library.path().string() + " " + why);
 }
 
-/// Compares the end of the name and ignores case: ApiName, DllName, and prefixed forms such as LaserApiName.
-bool is_device_library_property(std::string property) {
-    std::transform(property.begin(), property.end(), property.begin(),
-                   [](unsigned char c) { return std::tolower(c); });
-    const auto ends_with = [&](const std::string& end) {
-        return property.size() >= end.size() &&
-               property.compare(property.size() - end.size(), end.size(), end) == 0;
-    };
-    return ends_with("apiname") || ends_with("dllname");
-}
-
-std::vector<std::filesystem::path> search_dirs(const ComponentProfile& profile,
-                                               const std::vector<std::filesystem::path>& plugin_dirs) {
-    std::vector<std::filesystem::path> dirs{profile.location.file.parent_path()};
-    dirs.insert(dirs.end(), plugin_dirs.begin(), plugin_dirs.end());
-    return dirs;
-}
-
 /// Returns the line of a property in the profile, or of the profile itself if only the application has the property.
 const SourceLocation& property_location(const ComponentProfile& profile, const std::string& name) {
     for (const PropertyProfile& property : profile.property_profiles)
         if (property.name == name) return property.location;
     return profile.location;
-}
-
-/// Returns `GripperAPI` for GripperAPI.dll, libGripperAPI.so and similar names.
-std::string library_stem(const std::string& name) {
-    return std::filesystem::path(plugin::library_file_names(name).back()).filename().stem().stem().string();
-}
-
-/// Lists the libraries in the folders, for a message.
-std::vector<std::string> library_stems(const std::vector<std::filesystem::path>& dirs) {
-    std::vector<std::string> stems;
-    for (const auto& dir : dirs) {
-        std::error_code ignored; // a missing folder has no libraries
-        for (const auto& entry : std::filesystem::directory_iterator(dir.empty() ? "." : dir, ignored))
-            if (entry.path().extension() == ".so")
-                stems.push_back(library_stem(entry.path().filename().string()));
-    }
-    return stems;
 }
 
 /// Returns the value to set for a property: the path of the device library, if the property names an existing one.
@@ -348,7 +314,7 @@ std::vector<std::string> check_properties(const ComponentProfile& profile, const
             plugin::find_library(value, dirs);
         } catch (const plugin::Error& error) {
             errors.push_back(property_location(profile, name).text() + ": property " + name + ": device " +
-                             error.what() + text::did_you_mean(library_stem(value), library_stems(dirs)));
+                             error.what() + nearest_library(value, dirs));
         }
     }
     return errors;

@@ -10,6 +10,13 @@
 
 using namespace std; // components rely on it
 
+namespace opros {
+namespace detail {
+/// Notes, for a message, that a component or device has asked for a property that it does not have (ours).
+void note_absent_property(const std::string& name);
+} // namespace detail
+} // namespace opros
+
 /// Named values for a device or a component.
 class Property {
   public:
@@ -21,8 +28,15 @@ class Property {
     void SetProperty(std::map<std::string, std::string> values) { data.swap(values); }
     std::map<std::string, std::string> GetProperty() { return data; }
     void SetValue(std::string name, std::string value) { data[name] = value; }
-    std::string GetValue(std::string name) { return data[name]; }
-    bool FindName(std::string name) { return data.count(name) != 0; }
+    std::string GetValue(std::string name) {
+        FindName(name);
+        return data[name];
+    }
+    bool FindName(std::string name) {
+        if (data.count(name) != 0) return true;
+        opros::detail::note_absent_property(name);
+        return false;
+    }
 
     void save(opros::archive::oarchive& ar, const unsigned int) { ar << data; }
     void load(opros::archive::iarchive& ar, const unsigned int) { ar >> data; }

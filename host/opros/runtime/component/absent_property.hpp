@@ -9,3 +9,7 @@ using AbsentPropertyHandler = void (*)(PropertyInterface& component, const std::
 
 /// Sets the handler of this process. NULL, as at the start, means no handler. [any-thread]
 void set_absent_property_handler(AbsentPropertyHandler handler);
+
+/// Returns the property that the calling thread has last asked for, through getProperty() or a Property, without getting it;
+/// empty if there is none since the last call of this function. [any-thread]
+std::string take_absent_property();

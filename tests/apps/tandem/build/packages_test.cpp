@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What `tandem opros build` and `tandem rtm build` know about packages of Debian, and use of those installed.
 #include "apps/tandem/build/include_scan.hpp"
+#include "apps/tandem/build/missing_libraries.hpp"
 #include "apps/tandem/build/packages/header_packages.hpp"
 #include "apps/tandem/build/packages/installed_library.hpp"
 #include "apps/tandem/build/project/cmake_projects.hpp"
@@ -93,6 +94,19 @@ TEST_CASE("a remedy that the build already uses is not advised again") {
                Catch::StartsWith("boost_thread is used already"));
     CHECK_THAT(remedy("/usr/bin/ld: cannot find -lode: No such file or directory"),
                Catch::StartsWith("libode-dev is installed and has no libode.so"));
+}
+
+TEST_CASE("an installed library with a function that the linker misses is added once") {
+    const Folder root;
+    root.write("var/lib/dpkg/info/libode-dev:amd64.list", "/.\n");
+    root.write("var/lib/dpkg/info/libboost-thread-dev.list", "/.\n");
+    const auto output = undefined("dWorldCreate") + "\n" + undefined("boost::thread::join()") + "\n" +
+                        undefined("cv::imshow()") + "\n" + undefined("Arm::move()") + "\n";
+    MissingLibraries libraries;
+    CHECK(add_libraries(output, libraries, root.path()));
+    CHECK(libraries.modules == std::set<std::string>{"ode"});
+    CHECK(libraries.names == std::set<std::string>{"boost_thread"});
+    CHECK_FALSE(add_libraries(output, libraries, root.path()));
 }
 
 TEST_CASE("an installed header is found in a folder that the compiler does not search, with its libraries") {

@@ -40,17 +40,18 @@ void write_rtc(const Folder& folder, const std::string& name, const std::string&
 
 void write_opros(const Folder& folder, const std::string& name, const std::string& body,
                  const std::string& period = "10") {
-    folder.write("shelf/" + name + "/" + name + ".cpp",
-                 fmt::format("#include <Component.h>\n#include <csignal>\n#include <cstdio>\n"
-                             "struct {0} : Component {{\n"
-                             "  ReturnType onInitialize() override {{ return OPROS_SUCCESS; }}\n"
-                             "  ReturnType onStart() override {{ return OPROS_SUCCESS; }}\n"
-                             "  ReturnType onStop() override {{ return OPROS_SUCCESS; }}\n"
-                             "  ReturnType onDestroy() override {{ return OPROS_SUCCESS; }}\n"
-                             "  ReturnType onExecute() override {{ {1} return OPROS_SUCCESS; }}\n}};\n"
-                             "extern \"C\" Component* getComponent() {{ return new {0}; }}\n"
-                             "extern \"C\" void releaseComponent(Component* c) {{ delete c; }}\n",
-                             name, body));
+    folder.write(
+        "shelf/" + name + "/" + name + ".cpp",
+        fmt::format("#include <Component.h>\n#include <csignal>\n#include <cstdio>\n#include <cstdlib>\n"
+                    "struct {0} : Component {{\n"
+                    "  ReturnType onInitialize() override {{ return OPROS_SUCCESS; }}\n"
+                    "  ReturnType onStart() override {{ return OPROS_SUCCESS; }}\n"
+                    "  ReturnType onStop() override {{ return OPROS_SUCCESS; }}\n"
+                    "  ReturnType onDestroy() override {{ return OPROS_SUCCESS; }}\n"
+                    "  ReturnType onExecute() override {{ {1} return OPROS_SUCCESS; }}\n}};\n"
+                    "extern \"C\" Component* getComponent() {{ return new {0}; }}\n"
+                    "extern \"C\" void releaseComponent(Component* c) {{ delete c; }}\n",
+                    name, body));
     folder.write("shelf/" + name + "/profile/" + name + ".xml",
                  fmt::format("<component_profile><name>{0}</name><execution_environment>"
                              "<library_name>{0}.dll</library_name></execution_environment>"
@@ -151,11 +152,21 @@ TEST_CASE(
 
 TEST_CASE("the error of a component has the line that the component printed before") {
     const Folder folder;
-    write_opros(folder, "Lost", "std::puts(\"no map in /data\"); throw 1;");
+    write_opros(folder, "Lost", "std::puts(\"no map in /data\"); getProperty(\"map\"); throw 1;");
     const auto shelf = folder.path() / "shelf";
     const auto census = tandem_program({"opros", "census", shelf, "--seconds", "1", "--json"}).json();
     CHECK_THAT(error_of(census, "Lost"),
                Catch::Contains("onExecute") && Catch::EndsWith("(line before: no map in /data)"));
+}
+
+TEST_CASE("a component of a census that opens a window of Qt needs no display") {
+    const Folder folder;
+    write_opros(folder, "Window",
+                "if (!std::getenv(\"DISPLAY\") && !std::getenv(\"WAYLAND_DISPLAY\") && "
+                "!std::getenv(\"QT_QPA_PLATFORM\")) throw 1;");
+    const auto result = tandem_program({"opros", "census", folder.path() / "shelf", "--seconds", "1"});
+    INFO(result.output << result.errors);
+    CHECK(result.exit_code == 0);
 }
 
 TEST_CASE("copies of a profile are one component of a census, also those in a workspace's common folder") {

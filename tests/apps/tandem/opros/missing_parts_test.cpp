@@ -47,6 +47,18 @@ TEST_CASE("a header that exists once in the checkout is used, and options are su
                                "/other ("));
 }
 
+TEST_CASE("an incomplete copy of a library in the checkout is no remedy where Debian has the library") {
+    const Folder folder;
+    old_component(folder, "");
+    fs::create_directories(folder.path() / ".git");
+    folder.write("neighbour/Gain.h", "#include <miniupnpc/miniupnpc.h>\n");
+    folder.write("windows_sdk/miniupnpc/miniupnpc.h", "#include <upnp_of_windows.h>\n");
+    CHECK_THAT(
+        build({folder.path() / "Old"}).errors,
+        Catch::Contains("upnp_of_windows.h: No such file or directory; apt install libminiupnpc-dev: its "
+                        "miniupnpc/miniupnpc.h replaces the one of this repository"));
+}
+
 // As the makefiles of OPRoS's generator, which list only the component's own source.
 TEST_CASE(
     "a source that no makefile lists is compiled if it defines what is missing, once of several copies") {

@@ -40,6 +40,33 @@ TEST_CASE("a missing or wrong device library makes its component fail with the c
                     tandem::engine::SetupError); // the application has no other component
 }
 
+TEST_CASE("a component that cannot initialize says which device library or property it lacks") {
+    const Folder folder;
+    std::filesystem::create_directory(folder.path() / "devices");
+    std::filesystem::copy_file(FIXTURES "/libown_device.so", folder.path() / "devices" / "SensingApi.so");
+    const auto failure = [&](const std::string& properties) {
+        folder.component("SensingComp", "sensing", "<type>passive</type>", properties);
+        auto options = test_options(folder);
+        options.plugin_dirs.push_back(folder.path() / "devices");
+        Application application(folder.application(Folder::sub("S", "SensingComp.xml")), options);
+        return application.find_component("S")->last_error();
+    };
+    CHECK(failure("<property name=\"ApiName\">nowhere</property>") ==
+          "component S: onInitialize failed, it returned code 0x10000001 (OPROS_FIND_DLL_ERROR); device "
+          "library "
+          "'nowhere' of property ApiName does not exist; for a simulated device, set it to SensingApi");
+    CHECK(failure("<property name=\"Scale\">4.5</property>") ==
+          "component S: onInitialize failed, it returned code 0x10000003 (OPROS_FIND_PROPERTY_ERROR); it "
+          "asks for property ApiName, which SensingComp.xml lacks; for a simulated device, set it to "
+          "SensingApi");
+    CHECK(
+        failure("<property name=\"ApiName\">own_device</property><property name=\"skale\">4.5</property>") ==
+        "component S: onInitialize failed, it returned code 0x10000100 (OPROS_INITIALIZE_API_ERROR); it "
+        "asks for property scale, which SensingComp.xml lacks; did you mean skale?");
+    CHECK(failure("<property name=\"ApiName\">maker</property>") ==
+          "component S: onInitialize failed, it returned code 0x10000002 (OPROS_LOAD_DLL_ERROR)");
+}
+
 TEST_CASE("a device library that the application names replaces the profile's under all of its names") {
     const Folder folder;
     folder.component("S", "sensing", "<type>passive</type>",
