@@ -4,12 +4,15 @@
 #include "host/process/exit/exit_timer.hpp"
 #include "host/process/start_thread.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <future>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 
 namespace tandem::process {
 namespace {
@@ -24,56 +27,117 @@ struct FinishedOnExit {
     ~FinishedOnExit() { --running_calls; }
 };
 
-// Returns false if `end` is not ready within `timeout`.
-bool wait_for(const std::future<void>& end, std::chrono::nanoseconds timeout,
-              const std::function<void(std::chrono::seconds)>& on_slow) {
-    const auto start = std::chrono::steady_clock::now();
-    for (auto report = first_report; on_slow && report < timeout; report *= 2) {
-        if (end.wait_until(start + report) == std::future_status::ready) return true;
-        on_slow(report);
+/// How far the thread of a series has come.
+struct Progress {
+    std::mutex mutex;
+    std::size_t current; // the call that runs
+    std::chrono::steady_clock::time_point began = std::chrono::steady_clock::now();
+    bool is_abandoned = false; // the thread ends after the current call
+};
+
+void run_calls(const BoundedCall::Series& series, Progress& progress) {
+    std::unique_lock lock(progress.mutex);
+    for (; progress.current < series.count && !progress.is_abandoned; ++progress.current) {
+        const std::size_t i = progress.current;
+        progress.began = std::chrono::steady_clock::now();
+        lock.unlock();
+        series.work(i);
+        lock.lock();
     }
-    return end.wait_until(start + timeout) == std::future_status::ready;
 }
 
-} // namespace
+// Waits for the end of the thread. Returns the call that takes too long, if any, which is then the last one of the thread.
+std::optional<std::size_t> wait_for(const std::future<void>& end, const BoundedCall::Series& series,
+                                    Progress& progress) {
+    std::size_t watched = series.count;
+    std::chrono::nanoseconds timeout{0}, report{0};
+    for (;;) {
+        std::unique_lock lock(progress.mutex);
+        const std::size_t current = std::min(progress.current, series.count - 1);
+        if (std::exchange(watched, current) != current) {
+            timeout = series.timeout(current);
+            report = series.on_slow ? first_report : timeout;
+        }
+        const auto began = progress.began;
+        const auto took = std::chrono::steady_clock::now() - began;
+        progress.is_abandoned = took >= timeout && progress.current < series.count;
+        if (progress.is_abandoned) return current;
+        lock.unlock();
+        if (took >= report && report < timeout) {
+            series.on_slow(current, std::chrono::duration_cast<std::chrono::seconds>(report));
+            report *= 2;
+        }
+        if (end.wait_until(began + std::min(report, timeout)) == std::future_status::ready)
+            return std::nullopt;
+    }
+}
 
-bool BoundedCall::returns_within(std::chrono::nanoseconds timeout, std::function<void()> work,
-                                 const std::function<void(std::chrono::seconds)>& on_slow,
-                                 WithoutThread without_thread) {
-    ++running_calls;
-    std::promise<void> begun;
-    const std::future<void> begin = begun.get_future();
-    auto task = std::make_shared<std::packaged_task<void()>>(
-        [work = std::move(work), begun = std::move(begun)]() mutable {
-            const FinishedOnExit counted;
-            begun.set_value();
-            work();
-        });
-    std::future<void> end = task->get_future();
-    std::thread thread;
-    try {
-        thread = start_thread([task] { (*task)(); });
-    } catch (const NotStarted& error) { // the host still ends in order
+// Runs the calls in the calling thread. `error`: no other can be started.
+void run_without_thread(const BoundedCall::Series& series, std::size_t first, const NotStarted& error) {
+    for (std::size_t i = first; i < series.count; ++i) {
         std::optional<ExitTimer> limit;
-        if (without_thread == WithoutThread::exit)
+        if (series.without_thread == BoundedCall::WithoutThread::exit)
             limit.emplace(
-                timeout,
+                series.timeout(i),
                 std::string("error: a component's code does not return while the host ends, and the "
                             "host cannot go on without it: ") +
                     error.what(),
                 1);
-        (*task)();
-        end.get();
-        return true;
+        series.work(i);
     }
-    begin.wait_for(longest_start);
-    if (!wait_for(end, timeout, on_slow)) {
+}
+
+} // namespace
+
+void BoundedCall::run_series(const Series& series) {
+    for (std::size_t first = 0; first < series.count;) {
+        const auto progress = std::make_shared<Progress>();
+        progress->current = first;
+        std::promise<void> begun;
+        const std::future<void> begin = begun.get_future();
+        ++running_calls;
+        const auto task = std::make_shared<std::packaged_task<void()>>(
+            [series, progress, begun = std::move(begun)]() mutable {
+                const FinishedOnExit counted;
+                begun.set_value();
+                run_calls(series, *progress);
+            });
+        std::future<void> end = task->get_future();
+        std::thread thread;
+        try {
+            thread = start_thread([task] { (*task)(); });
+        } catch (const NotStarted& error) { // the host still ends in order
+            const FinishedOnExit counted;
+            return run_without_thread(series, first, error);
+        }
+        if (begin.wait_for(longest_start) != std::future_status::ready) { // it gets no processor
+            const std::lock_guard lock(progress->mutex);
+            progress->began = std::chrono::steady_clock::now();
+        }
+        const auto slow = wait_for(end, series, *progress);
+        if (!slow) {
+            thread.join();
+            return end.get(); // rethrows an exception of the call
+        }
         thread.detach();
-        return false;
+        if (!series.on_timeout(*slow)) return;
+        first = *slow + 1;
     }
-    thread.join();
-    end.get(); // rethrows an exception of `work`
-    return true;
+}
+
+bool BoundedCall::returns_within(std::chrono::nanoseconds timeout, std::function<void()> work,
+                                 const std::function<void(std::chrono::seconds)>& on_slow,
+                                 WithoutThread without_thread) {
+    bool returns = true;
+    Series series{1,
+                  [work = std::move(work)](std::size_t) { work(); },
+                  [timeout](std::size_t) { return timeout; },
+                  [&](std::size_t) { return returns = false; },
+                  {},
+                  without_thread};
+    if (on_slow) series.on_slow = [&](std::size_t, std::chrono::seconds time) { on_slow(time); };
+    run_series(series);
+    return returns;
 }
 
 bool BoundedCall::any_running() { return running_calls != 0; }

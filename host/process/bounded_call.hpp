@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <functional>
 
 namespace tandem::process {
@@ -19,6 +20,20 @@ class BoundedCall {
     static bool returns_within(std::chrono::nanoseconds timeout, std::function<void()> work,
                                const std::function<void(std::chrono::seconds)>& on_slow = {},
                                WithoutThread without_thread = WithoutThread::no_limit);
+
+    /// The calls work(0) ... work(count - 1).
+    struct Series {
+        std::size_t count;
+        std::function<void(std::size_t i)> work;
+        std::function<std::chrono::nanoseconds(std::size_t i)> timeout;
+        /// Call i still runs. Returns whether the series goes on. In the calling thread.
+        std::function<bool(std::size_t i)> on_timeout;
+        std::function<void(std::size_t i, std::chrono::seconds time)> on_slow{};
+        WithoutThread without_thread = WithoutThread::no_limit;
+    };
+    /// Runs one call after the other as returns_within() does. Calls that return share a thread, because a change of threads for
+    /// each of a thousand components takes seconds on a loaded machine. An exception ends the series. [any-thread]
+    static void run_series(const Series& series);
 
     /// Returns whether any call of this process has not returned yet. Static objects must not be destroyed while a call is
     /// running: end such a process with exit_process(). [any-thread]

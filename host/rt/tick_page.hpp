@@ -23,19 +23,19 @@ struct alignas(64) TickSlot {
     static constexpr std::size_t octaves = 32; ///< classes of times: below 64 ns, below 128 ns, ...
     std::uint64_t period_ns;                   ///< 0: the slot is free; written last when the slot is taken
     std::uint64_t ticks, overruns, skipped;
-    std::int64_t lateness_ns_last, lateness_ns_max;
-    char name[80]; ///< the owner of the ticks; NUL-terminated
-    std::uint64_t lateness[octaves];
+    std::int64_t lateness_ns_last, lateness_ns_max, execution_ns_max;
     /// The time on CLOCK_MONOTONIC at which the next tick is due. If it is long past, the thread hangs in a callback or
     /// gets no processor. 0: no tick is due, as before the first tick, while no component is active, and in lock-step.
     std::int64_t due_ns;
-    crash::CallbackText callback; ///< the callback that the thread is in
-    std::int64_t execution_ns_max;
+    // Until here, in one cache line, what each tick writes that no other process can see.
+    char name[80]; ///< the owner of the ticks; NUL-terminated
+    std::uint64_t lateness[octaves];
+    crash::CallbackText callback;     ///< the callback that the thread is in
     std::uint64_t execution[octaves]; ///< durations of the cycles
 };
 
 struct TickPage {
-    static constexpr char magic_text[8] = {'T', 'A', 'N', 'D', 'T', 'I', 'C', '3'};
+    static constexpr char magic_text[8] = {'T', 'A', 'N', 'D', 'T', 'I', 'C', '4'};
     static constexpr const char* file_name = "tandem-ticks";
     static constexpr std::size_t slots = 64;
     char magic[8];

@@ -56,7 +56,8 @@ void TickPolling::review(std::int64_t now) {
 bool TickPolling::messages_cross(std::int64_t now) {
     this_thread_crossings = 0;
     rehearse();
-    if (std::exchange(crossed_, this_thread_crossings) != crossed_) used_ = now;
+    if (crossed_ != this_thread_crossings) used_ = now;
+    crossed_ = this_thread_crossings;
     return used_ != 0 && now - used_ <= std::max(patience_ns, patience_periods * period_);
 }
 

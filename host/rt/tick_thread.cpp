@@ -120,9 +120,11 @@ void TickThread::prefetch_following() const {
     constexpr std::size_t counters = 2 * sizeof(void*); // std::make_shared() puts them before the object
     if (next < members.size()) members[next]->lines_.prefetch();
     if (next + 1 >= members.size()) return;
-    const auto* const object = reinterpret_cast<const std::byte*>(members[next + 1].get());
-    for (std::size_t at = 0; at < sizeof(SharedTick) + counters; at += CycleLines::line)
-        __builtin_prefetch(object + at - counters, 1);
+    const SharedTick& tick = *members[next + 1];
+    const auto* at = reinterpret_cast<const std::byte*>(&tick) - counters;
+    // The cycle is the last member that is used here.
+    for (const void* const end = &tick.work_.cycle + 1; at < end; at += CycleLines::line)
+        __builtin_prefetch(at, 1);
 }
 
 void TickThread::note_lines(SharedTick& tick) {

@@ -93,9 +93,9 @@ class CellRing {
     void untake();
 
     /// Returns how many values were published. [writing thread]
-    std::uint64_t published() const { return writer_.position; }
+    std::uint64_t published() const { return writer_.position - cells_.size(); }
     /// Returns how many values were taken or dropped. [reading thread]
-    std::uint64_t taken() const { return reader_.position; }
+    std::uint64_t taken() const { return reader_.position - cells_.size(); }
 
     /// Load into the caches what publish() or take() needs. The first does not take the word's line from the reader.
     void prefetch_for_publish() const { __builtin_prefetch(&cells_[writer_.cell]); }

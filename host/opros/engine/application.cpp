@@ -35,6 +35,12 @@ void log_node(const NodePart& part) {
                       part.node, connection.error);
 }
 
+std::vector<ComponentHost*> pointers(const std::vector<std::unique_ptr<ComponentHost>>& components) {
+    std::vector<ComponentHost*> all;
+    for (const auto& component : components) all.push_back(component.get());
+    return all;
+}
+
 } // namespace
 
 Application::Application(const ApplicationOptions& options) : options_(options) {
@@ -211,8 +217,7 @@ void Application::stop() {
     for (const auto& executor : executors_) executor_stats_.push_back(executor->stats());
     end_bounded(step_server_);
     end_bounded(late_start_);
-    for (auto component = start_order_.rbegin(); component != start_order_.rend(); ++component)
-        stop_component(**component);
+    stop_components({start_order_.rbegin(), start_order_.rend()});
 }
 
 // The destructor waits for the current step or attempt. The lambda owns the object, so that the object survives if its
@@ -229,31 +234,55 @@ void Application::end_bounded(std::shared_ptr<Helper>& helper) {
 // Calls stop() even if the executor has not ended, because onStop may make a component return that waits in onExecute.
 // The component is stuck only if it does not return soon after that. A second grace time would be longer than the time
 // that a supervisor waits for this host.
-void Application::stop_component(ComponentHost& component) {
-    const auto executor = std::find_if(executors_.begin(), executors_.end(),
-                                       [&](const auto& each) { return each->runs(component); });
-    const bool ended = executor == executors_.end() || (*executor)->stop_within(options_.grace);
-    run_bounded(component, &ComponentHost::stop);
-    if (!ended && !(*executor)->stop_within(std::min(options_.grace, time_after_stop))) {
-        for (ComponentHost* each : (*executor)->components())
+void Application::stop_components(const std::vector<ComponentHost*>& components) {
+    std::vector<ComponentHost*>
+        calls; // for each component the end of its cycles, which has a limit already, and onStop
+    for (ComponentHost* component : components) calls.insert(calls.end(), 2, component);
+    auto series = bounded_series(calls);
+    series.work = [this, calls](std::size_t i) { i % 2 == 0 ? end_cycles(*calls[i]) : calls[i]->stop(); };
+    series.timeout = [this](std::size_t i) { return i % 2 == 0 ? 2 * options_.grace : options_.grace; };
+    process::BoundedCall::run_series(series);
+    const auto deadline = std::chrono::steady_clock::now() + std::min(options_.grace, time_after_stop);
+    for (auto& executor : executors_) {
+        if (executor->stop_within(deadline - std::chrono::steady_clock::now())) continue;
+        for (ComponentHost* each : executor->components())
             if (each->current_callback()) mark_stuck(*each);
-        static_cast<void>(executor->release()); // leaked: its thread uses it as long as the process lives
+        static_cast<void>(executor.release()); // leaked: its thread uses it as long as the process lives
     }
-    if (executor != executors_.end()) executors_.erase(executor);
+    executors_.clear();
 }
 
-/// Runs one step of ending the component in a separate thread and continues without it after the grace time.
-void Application::run_bounded(ComponentHost& component, void (ComponentHost::*step)()) {
-    const auto log_slow = [&](std::chrono::seconds time) {
-        const char* callback = component.current_callback();
+void Application::end_cycles(const ComponentHost& component) {
+    const auto executor = std::find_if(executors_.begin(), executors_.end(),
+                                       [&](const auto& each) { return each->runs(component); });
+    if (executor != executors_.end()) static_cast<void>((*executor)->stop_within(options_.grace));
+}
+
+/// Returns a series with a call for each component, without its work. It continues without a component after the grace time.
+process::BoundedCall::Series Application::bounded_series(const std::vector<ComponentHost*>& components) {
+    const auto mark = [this, components](std::size_t i) {
+        mark_stuck(*components[i]);
+        return true;
+    };
+    const auto log_slow = [this, components](std::size_t i, std::chrono::seconds time) {
+        const char* callback = components[i]->current_callback();
         log::warn("{} of component {} has taken {} s so far; the host waits for it up to {} s",
-                  callback ? callback : "a callback", component.name(), time.count(),
+                  callback ? callback : "a callback", components[i]->name(), time.count(),
                   std::chrono::duration<double>(options_.grace).count());
     };
-    if (!process::BoundedCall::returns_within(
-            options_.grace, [&component, step] { (component.*step)(); }, log_slow,
-            process::BoundedCall::WithoutThread::exit))
-        mark_stuck(component);
+    return {components.size(),
+            {},
+            [this](std::size_t) { return options_.grace; },
+            mark,
+            log_slow,
+            process::BoundedCall::WithoutThread::exit};
+}
+
+/// Runs one step of ending the components in a separate thread.
+void Application::run_bounded(const std::vector<ComponentHost*>& components, void (ComponentHost::*step)()) {
+    auto series = bounded_series(components);
+    series.work = [components, step](std::size_t i) { (components[i]->*step)(); };
+    process::BoundedCall::run_series(series);
 }
 
 bool Application::is_stuck(const ComponentHost& component) const {
@@ -298,8 +327,9 @@ void Application::shut_down() {
             process::BoundedCall::WithoutThread::exit));
         if (!connections_->disconnect_all(options_.grace)) static_cast<void>(connections_.release());
     }
-    for (auto component = start_order_.rbegin(); component != start_order_.rend(); ++component)
-        if (!is_stuck(**component)) run_bounded(**component, &ComponentHost::destroy);
+    std::vector<ComponentHost*> returned(start_order_.rbegin(), start_order_.rend());
+    std::erase_if(returned, [this](const ComponentHost* component) { return is_stuck(*component); });
+    run_bounded(returned, &ComponentHost::destroy);
 }
 
 // Nothing is deleted while a component is stuck, because it may still call the others. A stuck destructor also ends the
@@ -309,18 +339,20 @@ void Application::unload() {
     shut_down();
     if (unloaded_ || !stuck_components_.empty()) return;
     unloaded_ = true;
-    for (const auto& component : components_) run_bounded(*component, &ComponentHost::destroy_instance);
+    run_bounded(pointers(components_), &ComponentHost::destroy_instance);
     if (stuck_components_.empty()) unload_libraries();
 }
 
 void Application::unload_libraries() {
     libraries_.clear();
     std::vector<std::filesystem::path> files;
-    for (const auto& component : components_) {
-        files.push_back(component->library()->path());
-        run_bounded(*component, &ComponentHost::unload_library);
-        if (!stuck_components_.empty()) return;
-    }
+    for (const auto& component : components_) files.push_back(component->library()->path());
+    const auto all = pointers(components_);
+    auto series = bounded_series(all);
+    series.work = [all](std::size_t i) { all[i]->unload_library(); };
+    series.on_timeout = [mark = series.on_timeout](std::size_t i) { return mark(i), false; };
+    process::BoundedCall::run_series(series);
+    if (!stuck_components_.empty()) return;
     for (std::size_t i = 0; i < files.size(); ++i)
         if (plugin::Library::is_loaded(files[i])) components_still_loaded_.push_back(components_[i]->name());
 }

@@ -6,6 +6,7 @@
 #include "host/opros/engine/execute/component_host.hpp"
 #include "host/opros/engine/execute/executor.hpp"
 #include "host/opros/engine/late_start.hpp"
+#include "host/process/bounded_call.hpp"
 #include "host/rt/lock_step/step_server.hpp"
 
 #include <chrono>
@@ -101,10 +102,12 @@ class Application {
     void start_late();
     template <class Helper>
     void end_bounded(std::shared_ptr<Helper>& helper);
-    void stop_component(ComponentHost& component);
+    void stop_components(const std::vector<ComponentHost*>& components);
+    void end_cycles(const ComponentHost& component);
     void stop_task_queues();
     void unload_libraries();
-    void run_bounded(ComponentHost& component, void (ComponentHost::*step)());
+    process::BoundedCall::Series bounded_series(const std::vector<ComponentHost*>& components);
+    void run_bounded(const std::vector<ComponentHost*>& components, void (ComponentHost::*step)());
     bool is_stuck(const ComponentHost& component) const;
     void mark_stuck(const ComponentHost& component);
 

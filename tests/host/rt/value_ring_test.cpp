@@ -47,6 +47,18 @@ TEST_CASE("a value ring gives values in order and keeps as many of the newest as
     }
 }
 
+TEST_CASE("a value ring counts the values that were published and taken, and none when it is new") {
+    const std::size_t depth = GENERATE(1U, 3U);
+    Ring ring(depth);
+    CHECK(ring.published() == 0);
+    CHECK(ring.taken() == 0);
+    put(ring, 1);
+    take(ring);
+    put(ring, 2);
+    CHECK(ring.published() == 2);
+    CHECK(ring.taken() == 1);
+}
+
 TEST_CASE("a peeked value stays in a value ring until it is taken or too old") {
     Ring ring(2);
     put(ring, 1);

@@ -2,6 +2,7 @@
 #ifndef RTC_CONFIGADMIN_H
 #define RTC_CONFIGADMIN_H
 #include <array>
+#include <atomic>
 #include <coil/Properties.h>
 #include <coil/stringutil.h>
 #include <memory>
@@ -139,6 +140,8 @@ class ConfigAdmin {
     void notifySet(ConfigurationSetListenerType type, const coil::Properties& set);
     void notifyName(ConfigurationSetNameListenerType type, const char* name);
 
+    std::atomic<bool> m_mustUpdate{
+        false}; // update() has work to do; it runs in each cycle and then takes no lock
     mutable std::recursive_mutex m_mutex;
     coil::Properties& m_configsets;
     std::vector<std::unique_ptr<ConfigBase>> m_params;

@@ -106,6 +106,8 @@ class ExecutionContextBase {
     void setObjRef(ExecutionContextService_ptr ref) { m_objref = ExecutionContextService::_duplicate(ref); }
     /// Returns true if a cycle has work: a component is not simply inactive.
     bool hasWork();
+    /// Runs one cycle like invokeWorker(). Returns what hasWork() would.
+    bool runCycle();
     /// Runs the code of the next cycle without calling a component. [cycle's thread]
     void rehearse();
 
@@ -130,13 +132,20 @@ class ExecutionContextBase {
                                    const TransitionWait& wait);
     ReturnCode_t waitForTransition(const Participant& participant, LifeCycleState to,
                                    std::chrono::nanoseconds timeout);
-    void cycle();
+    struct CycleResult {
+        bool changed_state = false, has_work = false;
+    };
+    CycleResult cycle();
     /// Returns false if the value has not changed.
     bool setRunning(bool running);
     void forEach(ReturnCode_t (RTC_impl::RTObjectStateMachine::*call)());
 
+    // First what each cycle uses.
     mutable std::mutex m_mutex; // guards participants, rate, running
     Participants m_participants = std::make_shared<const std::vector<Participant>>();
+    std::timed_mutex m_cycleMutex;                                 // held during a cycle
+    std::atomic<std::thread::id> m_cycleThread{std::thread::id()}; // the thread inside a cycle, if any
+
     // Held during start() and stop(); locked before m_mutex. Recursive, because a callback of start() may call
     // stop().
     std::recursive_timed_mutex m_startStopMutex;
@@ -145,11 +154,8 @@ class ExecutionContextBase {
     TransitionWait m_activation, m_deactivation, m_reset;
     RTObject_var m_owner;
     ExecutionContextService_var m_objref;
-
-    std::timed_mutex m_cycleMutex;                                 // held during a cycle
-    std::atomic<std::thread::id> m_cycleThread{std::thread::id()}; // the thread inside a cycle, if any
     std::mutex m_cycleDoneMutex;
-    std::condition_variable m_cycleDone; // notified after each cycle
+    std::condition_variable m_cycleDone; // notified after each cycle with a transition
 };
 
 /// Context types from libraries, by name. Manager::registerECFactory() is the 1.x way to add one.

@@ -2,6 +2,8 @@
 #ifndef RTM_LISTENERHOLDER_H
 #define RTM_LISTENERHOLDER_H
 #include <algorithm>
+#include <atomic>
+#include <cstddef>
 #include <mutex>
 #include <utility>
 #include <vector>
@@ -21,14 +23,16 @@ class ListenerHolder {
     virtual void addListener(ListenerClass* listener, bool autoclean);
     virtual void removeListener(ListenerClass* listener);
     /// Calls `call(listener)` with the mutex held. The mutex is recursive and the loop uses an index, so that a
-    /// listener may add others.
+    /// listener may add others. An empty list costs one load: a component's cycle looks at four of them.
     template <class Call>
     void forEach(Call call) {
+        if (m_count.load(std::memory_order_acquire) == 0) return;
         std::lock_guard<std::recursive_mutex> lock(m_mutex);
         for (std::size_t i = 0; i < m_listeners.size(); ++i) call(*m_listeners[i].first);
     }
 
   protected:
+    std::atomic<std::size_t> m_count{0}; ///< of the listeners
     std::recursive_mutex m_mutex;
     std::vector<std::pair<ListenerClass*, bool>> m_listeners;
 };
@@ -44,6 +48,7 @@ template <class ListenerClass>
 void ListenerHolder<ListenerClass>::addListener(ListenerClass* listener, bool autoclean) {
     std::lock_guard<std::recursive_mutex> lock(m_mutex);
     m_listeners.emplace_back(listener, autoclean);
+    m_count = m_listeners.size();
 }
 template <class ListenerClass>
 void ListenerHolder<ListenerClass>::removeListener(ListenerClass* listener) {
@@ -53,6 +58,7 @@ void ListenerHolder<ListenerClass>::removeListener(ListenerClass* listener) {
     if (found == m_listeners.end()) return;
     if (found->second) delete found->first;
     m_listeners.erase(found);
+    m_count = m_listeners.size();
 }
 
 } // namespace util

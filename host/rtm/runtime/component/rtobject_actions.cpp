@@ -159,14 +159,17 @@ ReturnCode_t RTObject_impl::on_execute(UniqueId ec_id) {
     // What on_execute() and on_state_update() use of this object.
     const auto note_cycle_lines = [this] {
         using tandem::rt::note_lines;
-        constexpr std::size_t config_head = 192; // the members that ConfigAdmin::update() looks at
+        constexpr std::size_t holder_head = 16; // the members that ListenerHolder::forEach() looks at
         auto& [before, after, ports, contexts] = m_actionListeners;
         note_lines(dynamic_cast<const void*>(this), sizeof(void*));
-        note_lines(&m_profile, sizeof m_profile);
-        note_lines(&m_configsets, config_head);
-        note_lines(&before[m_actionListeners.at(Pre::PRE_ON_EXECUTE)], 2 * sizeof before[0]);
-        note_lines(&after[m_actionListeners.at(Post::POST_ON_EXECUTE)], 2 * sizeof after[0]);
-        note_lines(&m_failedCallback, sizeof m_failedCallback + 5 * sizeof(bool));
+        note_lines(&m_profile.instance_name, sizeof m_profile.instance_name);
+        note_lines(&m_configsets, sizeof(bool));
+        for (const auto execute = m_actionListeners.at(Pre::PRE_ON_EXECUTE);
+             const auto i : {execute, execute + 1}) {
+            note_lines(&before[i], holder_head);
+            note_lines(&after[i], holder_head);
+        }
+        note_lines(&m_readAll, 4 * sizeof(bool));
     };
     return run_guarded("onExecute", ec_id, Pre::PRE_ON_EXECUTE, Post::POST_ON_EXECUTE, [&] {
         if (rehearsing()) {

@@ -56,7 +56,9 @@ bool ConfigAdmin::unbindParameter(const char* param_name) {
 // Called by RTObject_impl after onExecute, and around activation and errors. Does nothing unless a set was
 // changed or activated since the last call.
 void ConfigAdmin::update() {
+    if (!m_mustUpdate.load(std::memory_order_acquire)) return;
     Lock lock(m_mutex);
+    m_mustUpdate = false;
     m_changedParam.clear();
     if (!m_changed || !m_active) return;
     update(m_activeId.c_str());
@@ -102,6 +104,7 @@ void ConfigAdmin::apply(const char* config_set, const char* only_param) {
             m_configsets.getNode(config_set).setProperty(param->name, used);
         }
         m_changedParam.push_back(param->name);
+        m_mustUpdate = true; // the next update() clears the list
         m_paramListeners.forEach([&](auto& listener) { listener(config_set, param->name.c_str()); });
     }
 }
@@ -172,7 +175,7 @@ bool ConfigAdmin::setConfigurationSetValues(const coil::Properties& config_set) 
     }
     if (!haveConfig(config_set.getName())) m_newConfig.push_back(config_set.getName());
     m_configsets.getNode(config_set.getName()) << config_set;
-    m_changed = true;
+    m_changed = m_mustUpdate = true;
     notifySet(ON_SET_CONFIG_SET, config_set);
     return true;
 }
@@ -204,7 +207,7 @@ bool ConfigAdmin::activateConfigurationSet(const char* config_id) {
         return false;
     m_activeId = config_id;
     m_active = true;
-    m_changed = true;
+    m_changed = m_mustUpdate = true;
     notifyName(ON_ACTIVATE_CONFIG_SET, config_id);
     return true;
 }

@@ -8,46 +8,52 @@
 
 namespace RTC {
 
+// Relaxed accesses to m_cycleThread suffice: a thread looks for its own writes only.
 bool ExecutionContextBase::isInsideCycle() const {
-    return m_cycleThread.load() == std::this_thread::get_id();
+    return m_cycleThread.load(std::memory_order_relaxed) == std::this_thread::get_id();
 }
 
-void ExecutionContextBase::invokeWorker() {
-    cycle();
-    // Locking once orders the cycle's changes before a waiter's check, so that no notification is missed.
-    { std::lock_guard<std::mutex> lock(m_cycleDoneMutex); }
-    m_cycleDone.notify_all();
+void ExecutionContextBase::invokeWorker() { runCycle(); }
+
+bool ExecutionContextBase::runCycle() {
+    const auto [changed_state, has_work] = cycle();
+    if (changed_state) {
+        // Locking once orders the cycle's changes before a waiter's check, so that no notification is missed.
+        { std::lock_guard<std::mutex> lock(m_cycleDoneMutex); }
+        m_cycleDone.notify_all();
+    }
+    return has_work;
 }
 
 void ExecutionContextBase::rehearse() {
     using tandem::rt::note_lines;
-    note_lines(&m_mutex, sizeof m_mutex + sizeof m_participants);
-    note_lines(&m_cycleMutex,
-               sizeof m_cycleMutex + sizeof m_cycleThread + sizeof m_cycleDoneMutex + sizeof m_cycleDone);
+    note_lines(&m_mutex, sizeof m_mutex + sizeof m_participants + sizeof m_cycleMutex + sizeof m_cycleThread);
     const auto all = participants();
     note_lines(all.get(), sizeof *all);
     note_lines(all->data(), all->size() * sizeof(Participant));
-    for (auto& participant : *all) note_lines(participant.get(), sizeof *participant);
+    for (auto& participant : *all) participant->note_lines();
     cycle();
 }
 
-void ExecutionContextBase::cycle() {
+ExecutionContextBase::CycleResult ExecutionContextBase::cycle() {
+    CycleResult result;
     std::lock_guard<std::timed_mutex> lock(m_cycleMutex);
-    m_cycleThread = std::this_thread::get_id();
+    m_cycleThread.store(std::this_thread::get_id(), std::memory_order_relaxed);
     // All executions, then all updates: the two passes of OMG RTC's periodic sampled data processing.
     const auto all = participants();
-    for (auto& participant : *all) participant->applyTransition();
+    for (auto& participant : *all) result.changed_state |= participant->applyTransition();
     for (auto& participant : *all) participant->execute();
     if (!tandem::rt::rehearsing())
         for (auto& participant : *all) participant->updateState();
-    m_cycleThread = std::thread::id();
+    for (auto& participant : *all) result.has_work |= !participant->isInactive();
+    m_cycleThread.store(std::thread::id(), std::memory_order_relaxed);
+    return result;
 }
 
 bool ExecutionContextBase::hasWork() {
-    const auto all = participants();
-    for (auto& participant : *all)
-        if (!participant->isInactive()) return true;
-    return false;
+    std::lock_guard<std::mutex> lock(m_mutex);
+    return !std::all_of(m_participants->begin(), m_participants->end(),
+                        [](const auto& participant) { return participant->isInactive(); });
 }
 
 ReturnCode_t ExecutionContextBase::activateComponent(LightweightRTObject_ptr comp) {

@@ -9,6 +9,7 @@
 #include "host/rtm/runtime/manager/manager_options.hpp"
 #include <algorithm>
 #include <atomic>
+#include <cstddef>
 #include <rtm/Manager.h>
 #include <rtm/PeriodicExecutionContext.h>
 #include <typeinfo>
@@ -21,25 +22,28 @@ using tandem::rt::SharedTick;
 
 /// Shared by the thread and its context, because a thread that hangs in a component's callback may outlive the context.
 struct PeriodicExecutionContext::Worker {
+    /// Since the thread looked, another thread has set one of the three members marked below. A cycle without such a change
+    /// takes no lock here.
+    std::atomic<bool> changed{true};
+    // Used by the thread alone:
+    bool has_work = false;
+    bool has_rested = false; // no component was active, so that a cycle need not wait for a tick
+    std::shared_ptr<PeriodicTick> current_tick;
+
     std::mutex mutex;
     std::condition_variable wake;
-    std::shared_ptr<PeriodicTick> tick; // replaced when the rate changes, and after a rest
+    std::shared_ptr<PeriodicTick> tick; // replaced when the rate changes (marked), and after a rest
     TickStatistics previous;            // counted by its predecessors
-    bool stop_requested = false;
+    bool stop_requested = false;        // marked
     bool finished = false;
-    bool transition_requested = false;
-    bool has_rested =
-        false; // the thread's: no component was active, so that a cycle need not wait for a tick
-    bool callback_hangs = false; // a stop has waited for it without success
-    std::thread thread;          // or:
+    bool transition_requested = false; // marked
+    bool callback_hangs = false;       // a stop has waited for it without success
+    std::thread thread;                // or:
     std::shared_ptr<SharedTick> shared_tick;
     std::shared_ptr<void> separate_thread; // token of tandem::rt::take_separate_tick_thread()
 
     TickStatistics tickStatistics() const; // with the mutex held
-    std::shared_ptr<PeriodicTick> currentTick() {
-        const std::lock_guard<std::mutex> lock(mutex);
-        return tick;
-    }
+    bool acceptChange();
     template <class WaitForTick>
     SharedTick::Next step(PeriodicExecutionContext& context, const WaitForTick& wait_for_tick);
     bool leaveSharedTick(std::unique_lock<std::mutex>& lock);
@@ -109,6 +113,7 @@ tandem::rt::SharedTickOptions sharedTickOptions(std::chrono::nanoseconds period,
 RTC::ReturnCode_t PeriodicExecutionContext::onStarted() {
     auto started = std::make_shared<Worker>();
     createTick(*started);
+    started->current_tick = started->tick;
     started->has_rested = !hasWork();
     // A derived class may rely on its thread.
     if (typeid(*this) != typeid(PeriodicExecutionContext) || !mayShareThread(m_properties) ||
@@ -119,14 +124,15 @@ RTC::ReturnCode_t PeriodicExecutionContext::onStarted() {
         m_worker = started;
         return RTC::RTC_OK;
     }
-    const auto cycle = [this, started](const tandem::rt::ArrivedTick& arrived) {
+    // Small enough for the memory of the std::function itself. `rehearse_cycle` owns the worker.
+    const auto cycle = [this, worker = started.get()](const tandem::rt::ArrivedTick& arrived) {
         // Else each call registers the thread, which takes as long.
         thread_local const omni_thread::ensure_self known_to_orb;
-        return started->step(*this, [&](PeriodicTick& tick) { tick.tick_at(arrived); });
+        return worker->step(*this, [&](PeriodicTick& tick) { tick.tick_at(arrived); });
     };
     const auto rehearse_cycle = [this, started] {
-        tandem::rt::note_lines(started.get(), sizeof *started);
-        started->currentTick()->note_lines();
+        tandem::rt::note_lines(started.get(), offsetof(Worker, mutex));
+        started->current_tick->note_lines();
         rehearse();
     };
     const auto write_log = [this](const std::string& line) { RTC_INFO(("%s", line.c_str())); };
@@ -141,31 +147,39 @@ RTC::ReturnCode_t PeriodicExecutionContext::onStarted() {
     return RTC::RTC_OK;
 }
 
+/// Takes over what other threads have changed. Returns false if the thread is to stop. [context's thread]
+bool PeriodicExecutionContext::Worker::acceptChange() {
+    if (!changed.load(std::memory_order_acquire)) return true;
+    std::lock_guard<std::mutex> lock(mutex);
+    if (stop_requested) return false;
+    changed = transition_requested = false;
+    // The thread sleeps on its own pointer: setRate() may replace the tick meanwhile, and then interrupts it.
+    current_tick = tick;
+    return true;
+}
+
 /// Runs a cycle at the next tick, or at once after a rest. Returns `rest`, without a cycle, if no component needs one.
 /// [context's thread]
 template <class WaitForTick>
 SharedTick::Next PeriodicExecutionContext::Worker::step(PeriodicExecutionContext& context,
                                                         const WaitForTick& wait_for_tick) {
-    std::unique_lock<std::mutex> lock(mutex);
-    if (stop_requested) return SharedTick::Next::rest;
-    transition_requested = false;
-    // Sleeps without the mutex, on a copy of the pointer: setRate() may replace the tick meanwhile, and then interrupts it.
-    const auto current = tick;
-    lock.unlock();
-    if (context.hasWork()) {
-        const tandem::crash::CallbackPublication publication(current->callback_text());
+    if (!acceptChange()) return SharedTick::Next::rest;
+    PeriodicTick& current = *current_tick;
+    if (has_work || context.hasWork()) {
+        const tandem::crash::CallbackPublication publication(current.callback_text());
         if (has_rested)
-            current->begin_cycle();
+            current.begin_cycle();
         else
-            wait_for_tick(*current);
-        if (current->interrupted()) return SharedTick::Next::tick;
-        context.invokeWorker();
+            wait_for_tick(current);
+        if (current.interrupted()) return SharedTick::Next::tick;
+        has_work = context.runCycle();
         has_rested = false;
         return SharedTick::Next::tick;
     }
-    current->rest();
-    lock.lock();
+    current.rest();
+    std::lock_guard<std::mutex> lock(mutex);
     context.createTick(*this); // periods that are slept through do not count as skipped
+    current_tick = tick;
     has_rested = true;
     return SharedTick::Next::rest;
 }
@@ -195,6 +209,7 @@ void PeriodicExecutionContext::run(Worker& worker) {
 
     for (;;) {
         const auto next = worker.step(*this, [](PeriodicTick& tick) { tick.wait(); });
+        if (next == SharedTick::Next::tick && !worker.changed) continue;
         std::unique_lock<std::mutex> lock(worker.mutex);
         if (next == SharedTick::Next::rest)
             worker.wake.wait(lock, [&] { return worker.stop_requested || worker.transition_requested; });
@@ -221,7 +236,7 @@ RTC::ReturnCode_t PeriodicExecutionContext::onStopping() {
     if (stopping == nullptr) return RTC::RTC_OK;
     {
         std::unique_lock<std::mutex> lock(stopping->mutex);
-        stopping->stop_requested = true;
+        stopping->stop_requested = stopping->changed = true;
         stopping->tick->interrupt();
         stopping->wake.notify_all();
         if (stopping->shared_tick) stopping->finished = stopping->leaveSharedTick(lock);
@@ -253,6 +268,7 @@ RTC::ReturnCode_t PeriodicExecutionContext::onSetRate(double) {
     // The thread may be waiting for a tick of the old rate: interrupted, it goes on with the new one.
     auto old_tick = running->tick;
     createTick(*running);
+    running->changed = true;
     old_tick->interrupt();
     if (running->shared_tick) running->shared_tick->change(sharedTickOptions(getPeriod(), m_phase));
     return RTC::RTC_OK;
@@ -262,7 +278,7 @@ void PeriodicExecutionContext::onTransitionRequested() {
     auto running = worker();
     if (running == nullptr) return;
     std::lock_guard<std::mutex> lock(running->mutex);
-    running->transition_requested = true;
+    running->transition_requested = running->changed = true;
     running->wake.notify_all();
     if (running->shared_tick) running->shared_tick->wake();
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rtm/runtime/execution/rt_object_state_machine.hpp"
+#include "host/rt/cycle_lines.hpp"
 #include "host/rt/rehearsal.hpp"
 #include "host/rtm/runtime/manager/slow_transitions.hpp"
 #include "host/rtm/runtime/naming/local_object.hpp"
@@ -52,8 +53,8 @@ TANDEM_DATA_FLOW_ACTION(on_rate_changed)
 #undef TANDEM_DATA_FLOW_ACTION
 
 RTObjectStateMachine::RTObjectStateMachine(RTC::UniqueId id, RTC::LightweightRTObject_ptr component)
-    : id_(id), reference_(RTC::LightweightRTObject::_duplicate(component)),
-      local_(RTC::local_object<RTC::RTObject_impl>(component).get()) {
+    : id_(id), local_(RTC::local_object<RTC::RTObject_impl>(component).get()),
+      reference_(RTC::LightweightRTObject::_duplicate(component)) {
     if (local_ == nullptr)
         data_flow_actions_ = RTC::DataFlowComponentAction::_narrow(component);
     else
@@ -103,16 +104,24 @@ void RTObjectStateMachine::enterState(LifeCycleState state, bool entered) {
     while (!states_.compare_exchange_weak(now, {state, entered ? now.next : ERROR_STATE})) continue;
 }
 
-void RTObjectStateMachine::applyTransition() {
+bool RTObjectStateMachine::applyTransition() {
     const auto [from, to] = states_.load();
-    if (from == to || rehearsing()) return;
+    if (from == to || rehearsing()) return false;
     const RTC::TransitionScope scope;
     // The callbacks may ask for the state, or request a transition.
     if (from == ACTIVE_STATE) call(on_deactivated);
-    if (from == ERROR_STATE && call(on_reset) != RTC_OK) return requestErrorState(); // it stays in ERROR
+    if (from == ERROR_STATE && call(on_reset) != RTC_OK) { // it stays in ERROR
+        requestErrorState();
+        return true;
+    }
     const bool entered = to == ACTIVE_STATE ? call(on_activated) == RTC_OK : true;
     if (to == ERROR_STATE) call(on_aborting);
     enterState(to, entered);
+    return true;
+}
+
+void RTObjectStateMachine::note_lines() const {
+    tandem::rt::note_lines(&states_, sizeof states_ + sizeof id_ + sizeof local_);
 }
 
 void RTObjectStateMachine::execute() {

@@ -43,12 +43,15 @@ class RTObjectStateMachine {
     // The steps of one cycle, in this order. In a rehearsal (host/rt/rehearsal.hpp) they call nothing of the component and
     // change nothing.
 
-    /// Carries out the pending transition, if any. A transition that fails leads to the ERROR state.
-    void applyTransition();
+    /// Carries out the pending transition. A transition that fails leads to the ERROR state. Returns false if none is pending.
+    bool applyTransition();
     /// on_execute in the ACTIVE state, on_error in the ERROR state; nothing while a transition is pending.
     void execute();
     /// on_state_update in the ACTIVE state.
     void updateState();
+
+    /// Reports what the three steps use (host/rt/cycle_lines.hpp).
+    void note_lines() const;
 
     // Callbacks outside the cycle; their result is the component's, RTC_ERROR when it cannot be reached.
     RTC::ReturnCode_t startup();
@@ -72,13 +75,14 @@ class RTObjectStateMachine {
     void requestErrorState();
     void enterState(RTC::LifeCycleState state, bool entered);
 
+    // First what each cycle uses.
+    std::atomic<States> states_{States{RTC::INACTIVE_STATE, RTC::INACTIVE_STATE}};
     RTC::UniqueId id_;
+    RTC::RTObject_impl* local_; // NULL: of another process
     RTC::LightweightRTObject_var reference_;
     RTC::DataFlowComponentAction_var data_flow_actions_; // nil: of this process, or without these actions
-    RTC::RTObject_impl* local_;                          // NULL: of another process
     std::string name_;
     std::optional<tandem::process::OwnComponentState> published_; // of a component of this process
-    std::atomic<States> states_{States{RTC::INACTIVE_STATE, RTC::INACTIVE_STATE}};
 };
 
 } // namespace RTC_impl

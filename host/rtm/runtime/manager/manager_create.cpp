@@ -249,11 +249,11 @@ std::vector<ComponentCreation> Manager::Impl::creations() const {
 
 // Undoes the creation of a component that could not be set up.
 void Manager::Impl::discard_component(RTObject_impl& component, std::shared_ptr<FactoryBase> factory) {
-    destroy_component(component.getInstanceName(), [&component, factory = std::move(factory)] {
-        component.finalizePorts();
-        component.finalizeContexts();
-        factory->destroy(&component);
-    });
+    run_destructors({{component.getInstanceName(), [&component, factory = std::move(factory)] {
+                          component.finalizePorts();
+                          component.finalizeContexts();
+                          factory->destroy(&component);
+                      }}});
 }
 
 // The mutex is not held while the component's code runs: that code may wait for another thread of the component that

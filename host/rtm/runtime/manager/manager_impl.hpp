@@ -131,9 +131,9 @@ struct Manager::Impl {
     std::chrono::steady_clock::time_point next_round() const; ///< [main-thread]
     /// Deletes components that have exited. Without the mutex: a destructor may call the manager.
     void destroy(const std::vector<Component>& exited);
-    /// Calls `destroy`, which ends with the destructor of component `name`, in a separate thread. If a destructor does
-    /// not return in time, logs that and leaves the thread behind.
-    void destroy_component(const std::string& name, std::function<void()> destroy);
+    /// Calls the functions, each of which ends with the destructor of the component of that name, in a separate thread. If one
+    /// does not return in time, logs that and leaves the thread behind.
+    void run_destructors(const std::vector<std::pair<std::string, std::function<void()>>>& destructors);
     void set_setting_up(bool value);
     /// No thread: there is no main loop any more.
     void set_main_loop(std::thread::id thread);

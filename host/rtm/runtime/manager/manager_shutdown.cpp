@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <future>
 #include <thread>
+#include <utility>
 
 namespace RTC {
 namespace {
@@ -57,28 +58,33 @@ bool Manager::stopComponents(std::vector<RTObject_impl*> components) {
         m_impl->leave_behind(callback_text(component, name));
         all_exited = false;
     };
-    auto returns = [&](RTObject_impl* component, const std::string& name, std::function<void()> call) {
-        return tandem::process::BoundedCall::returns_within(
-            2 * host_options().stop_timeout, std::move(call),
-            [&](std::chrono::seconds time) {
-                RTC_WARN(("%s has taken %ld s so far; the host waits for it",
-                          callback_text(component, name).c_str(), static_cast<long>(time.count())));
-            },
-            tandem::process::BoundedCall::WithoutThread::exit);
+    std::vector<std::string> names;
+    for (const auto* component : components) names.emplace_back(component->getInstanceName());
+    // Calls `step` for each component that has returned from the steps before.
+    const auto run = [&](void (*step)(RTObject_impl*)) {
+        tandem::process::BoundedCall::run_series(
+            {components.size(),
+             [components, step](std::size_t i) {
+                 if (components[i] != nullptr) step(components[i]);
+             },
+             [](std::size_t) { return 2 * host_options().stop_timeout; },
+             [&](std::size_t i) {
+                 leave_behind(std::exchange(components[i], nullptr), names[i]);
+                 return true;
+             },
+             [&](std::size_t i, std::chrono::seconds time) {
+                 RTC_WARN(("%s has taken %ld s so far; the host waits for it",
+                           callback_text(components[i], names[i]).c_str(), static_cast<long>(time.count())));
+             },
+             tandem::process::BoundedCall::WithoutThread::exit});
     };
-    std::erase_if(components, [&](auto* component) {
-        const std::string name(component->getInstanceName());
-        if (returns(component, name, [component] { halt_and_deactivate(component); })) return false;
-        leave_behind(component, name);
-        return true;
-    });
-    for (auto* component : components) {
-        const std::string name(component->getInstanceName());
-        // A component whose onFinalize has failed, which is logged, has exited nevertheless. A component that is still
-        // listed has not exited: exit() has failed, or another call of exit() by a tool waits for a callback.
-        const bool returned = returns(component, name, [component] { component->exit(); });
-        if (!returned || !leaves_in_time(*this, component, name)) leave_behind(component, name);
-    }
+    run(halt_and_deactivate);
+    run([](RTObject_impl* component) { component->exit(); });
+    // A component whose onFinalize has failed, which is logged, has exited nevertheless. A component that is still listed has
+    // not exited: exit() has failed, or another call of exit() by a tool waits for a callback.
+    for (std::size_t i = 0; i < components.size(); ++i)
+        if (components[i] != nullptr && !leaves_in_time(*this, components[i], names[i]))
+            leave_behind(components[i], names[i]);
     return all_exited;
 }
 
@@ -94,23 +100,33 @@ void Manager::cleanupComponents() {
 }
 
 void Manager::Impl::destroy(const std::vector<Component>& exited) {
+    std::vector<std::pair<std::string, std::function<void()>>> destructors;
     for (const auto& component : exited)
-        destroy_component(component.object->getInstanceName(),
-                          [component] { component.factory->destroy(component.object); });
+        destructors.emplace_back(component.object->getInstanceName(),
+                                 [component] { component.factory->destroy(component.object); });
+    run_destructors(destructors);
 }
 
-void Manager::Impl::destroy_component(const std::string& name, std::function<void()> call) {
-    auto scoped_call = [name, call = std::move(call)] {
-        const tandem::crash::CallbackScope scope(nullptr, name.c_str(), "its destructor", nullptr);
-        call();
-    };
+void Manager::Impl::run_destructors(
+    const std::vector<std::pair<std::string, std::function<void()>>>& destructors) {
     using WithoutThread = tandem::process::BoundedCall::WithoutThread;
     std::unique_lock<std::recursive_mutex> lock(mutex);
     const auto without_thread = shut_down ? WithoutThread::exit : WithoutThread::no_limit;
     lock.unlock();
-    if (!tandem::process::BoundedCall::returns_within(2 * host_options().stop_timeout, std::move(scoped_call),
-                                                      {}, without_thread))
-        leave_behind("the destructor of " + name);
+    tandem::process::BoundedCall::run_series({destructors.size(),
+                                              [destructors](std::size_t i) {
+                                                  const auto& [name, destroy] = destructors[i];
+                                                  const tandem::crash::CallbackScope scope(
+                                                      nullptr, name.c_str(), "its destructor", nullptr);
+                                                  destroy();
+                                              },
+                                              [](std::size_t) { return 2 * host_options().stop_timeout; },
+                                              [&](std::size_t i) {
+                                                  leave_behind("the destructor of " + destructors[i].first);
+                                                  return true;
+                                              },
+                                              {},
+                                              without_thread});
 }
 
 void Manager::Impl::leave_behind(const std::string& what) {

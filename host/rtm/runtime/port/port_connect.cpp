@@ -24,10 +24,15 @@ struct PortDescription {
     std::string name, kind, data_type;
 };
 
+PortDescription describe_port(const PortProfile& profile) {
+    return {static_cast<const char*>(profile.name), NVUtil::toString(profile.properties, "port.port_type"),
+            NVUtil::toString(profile.properties, "dataport.data_type")};
+}
+
+// The profile of a port of this process is not copied: it contains all connections of the port.
 PortDescription describe_port(PortService_ptr port) {
-    PortProfile_var profile = port->get_port_profile();
-    return {static_cast<const char*>(profile->name), NVUtil::toString(profile->properties, "port.port_type"),
-            NVUtil::toString(profile->properties, "dataport.data_type")};
+    if (const auto local = local_object<PortBase>(port)) return describe_port(local->getPortProfile());
+    return describe_port(PortProfile_var(port->get_port_profile()).in());
 }
 
 // Returns in one line why two ports cannot be connected; empty if they can. Ports of unknown kind pass, because they
@@ -289,10 +294,11 @@ ReturnCode_t PortBase::_publishInterfaces() {
 
 // Returns whether any connection links this port with another port of the profile.
 bool PortBase::isAlreadyConnected(const ConnectorProfile& profile) {
-    ConnectorProfileList_var present = get_connector_profiles();
+    std::lock_guard<std::mutex> lock(m_profile_mutex);
+    const ConnectorProfileList& present = m_profile.connector_profiles;
     for (CORBA::ULong i = 0; i < profile.ports.length(); ++i) {
         if (m_objref->_is_equivalent(profile.ports[i])) continue;
-        for (CORBA::ULong c = 0; c < present->length(); ++c)
+        for (CORBA::ULong c = 0; c < present.length(); ++c)
             for (CORBA::ULong p = 0; p < present[c].ports.length(); ++p)
                 if (present[c].ports[p]->_is_equivalent(profile.ports[i])) return true;
     }

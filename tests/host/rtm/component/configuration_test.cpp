@@ -350,6 +350,8 @@ TEST_CASE("Listeners are called for sets that are added, set, activated and remo
     CHECK(std::exchange(calls, "") == "added(fresh) activated(fresh) ");
     fixture.activate(counter);
     CHECK(std::exchange(calls, "") == "changed(fresh.step) updated(fresh) ");
+    fixture.step(counter);
+    CHECK(counter.getConfigService().changedParameters().empty()); // the last cycle changed none
     CHECK(configuration->set_configuration_set_values(fresh));
     fixture.step(counter);
     CHECK(std::exchange(calls, "") == "set(fresh) updated(fresh) ");
