@@ -5,6 +5,8 @@
 #include "shm/os/shared_copy.hpp"
 #include "shm/segment/liveness.hpp"
 
+#include <optional>
+
 namespace tandem::shm {
 
 Segment::Segment(std::shared_ptr<const Mapping> mapping, std::unique_ptr<CloseOnForkDescriptor> life_lock)
@@ -17,11 +19,14 @@ void Segment::leave() {
     // A fork()ed child has no lock: its parent owns the side.
     if (!*life_lock_ || left_.exchange(true)) return;
     const int fd = life_lock_->get();
-    // If the hand-over byte is not available (its holder was stopped), the file is left to remove_dead().
-    const HandOverLock hand_over(fd);
+    // If the hand-over byte is not available (its holder was stopped), the file is left to remove_dead(). Nobody can join a
+    // file without a name, so this thread does not wait for the byte then.
+    std::optional<HandOverLock> hand_over;
+    if (still_named(fd)) hand_over.emplace(fd);
     mapping_->side_header(side()).left.store(1, std::memory_order_relaxed);
     unlock(fd, life_byte(side()));
-    if (hand_over.held() && !side_lives(fd, other(side())) && still_named(fd)) ::unlink(path().c_str());
+    if (hand_over && hand_over->held() && !side_lives(fd, other(side())) && still_named(fd))
+        ::unlink(path().c_str());
     announce_change(fd);
     peer_doorbell_.ring(Doorbell::attention_bit);
 }

@@ -5,6 +5,7 @@
 #include "shm/segment/liveness.hpp"
 
 #include <fcntl.h>
+#include <sys/resource.h>
 
 using namespace tandem::shm;
 using namespace tandem::shm::test;
@@ -127,6 +128,19 @@ TEST_CASE("a process stopped while it joins does not hold up the other side for 
     auto second = join(link, Side::second);
     CHECK(second->generation() == first->generation() + 1);
     CHECK(first->superseded());
+}
+
+TEST_CASE("a side leaves a segment without a name at once, also if a process stopped while it joined") {
+    Link link;
+    auto first = join(link, Side::first);
+    const FileDescriptor stopped(open(first->path().c_str(), O_RDWR | O_CLOEXEC));
+    REQUIRE(try_lock(stopped.get(), LockByte::hand_over));
+    std::filesystem::remove(first->path());
+    rusage before{}, after{};
+    getrusage(RUSAGE_THREAD, &before);
+    first.reset();
+    getrusage(RUSAGE_THREAD, &after);
+    CHECK(after.ru_nvcsw - before.ru_nvcsw <= 2); // waiting for the lock sleeps some thousand times
 }
 
 TEST_CASE("a side that needs a larger arena makes the next generation large enough for both") {

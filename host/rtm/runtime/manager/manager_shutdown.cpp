@@ -174,7 +174,9 @@ bool Manager::Impl::end_in_order(Manager& manager) {
                                                1);
         (*end_orb)();
     }
-    if (ended.wait_for(host_options().stop_timeout) != std::future_status::ready)
+    // A call that has not ended by now has had its time, and has been named.
+    const auto patience = all_sent ? host_options().stop_timeout : std::chrono::nanoseconds(0);
+    if (ended.wait_for(patience) != std::future_status::ready && all_sent)
         leave_behind("an operation that another process has called");
     listeners.manager_.forEach([](auto& listener) { listener.postShutdown(); });
     close_log_streams(*this);
