@@ -26,6 +26,7 @@ void add_rtm_commands(CLI::App& tandem, Action& selected);
 void add_idl_commands(CLI::App& tandem, Action& selected);
 void add_link_commands(CLI::App& tandem, Action& selected);
 void add_run_command(CLI::App& tandem, Action& selected);
+void add_system_commands(CLI::App& tandem, Action& selected);
 void add_shm_commands(CLI::App& tandem, Action& selected);
 void add_observe_commands(CLI::App& tandem, Action& selected);
 void add_top_commands(CLI::App& tandem, Action& selected);

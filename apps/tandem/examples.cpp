@@ -57,6 +57,9 @@ const Examples of_systems[] = {
     {"run",
      {"tandem run robot", "tandem run robot --restart 5 --host-option=--lock-memory",
       "tandem run robot --lockstep --duration 10 --record run.mcap"}},
+    {"system list", {"tandem system list", "tandem system list robots --json"}},
+    {"system new", {"tandem system new robot Arm Gripper Gripper"}},
+    {"system save", {"tandem system save robot-2", "tandem system save robot --replace"}},
     {"shm list", {"tandem shm list"}},
     {"shm info", {"tandem shm info robot"}},
     {"shm stats", {"tandem shm stats robot --watch 1"}},
@@ -73,7 +76,9 @@ const Examples of_systems[] = {
      {"tandem bag convert run.mcap --json",
       "tandem bag convert run.mcap --csv --topic /robot/out -o out.csv"}},
     {"bag check", {"tandem bag check run.mcap"}},
-    {"monitor", {"tandem monitor", "tandem monitor --bind 0.0.0.0 --allow-host robot.local --control"}},
+    {"monitor",
+     {"tandem monitor", "tandem monitor --bind 0.0.0.0 --allow-host robot.local --control",
+      "tandem monitor --control --systems robots"}},
     {"completion", {"source <(tandem completion bash)"}},
 };
 

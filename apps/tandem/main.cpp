@@ -40,6 +40,7 @@ int main(int argc, char** argv) {
     tandem::command::add_idl_commands(app, selected);
     tandem::command::add_link_commands(app, selected);
     tandem::command::add_run_command(app, selected);
+    tandem::command::add_system_commands(app, selected);
     tandem::command::add_shm_commands(app, selected);
     tandem::command::add_observe_commands(app, selected);
     tandem::command::add_top_commands(app, selected);

@@ -271,16 +271,20 @@ void add_interceptor(RtmSetup& setup, const std::string& link) {
 }
 
 void write_setup(const RtmSetup& setup, ImportReport& report) {
-    write_file(setup.output / "rtc.conf", setup.text());
+    write_file(setup.output / "rtc.conf", setup.text("tandem rtm import"));
     report.add_file(setup.output / "rtc.conf");
+    copy_settings_files(setup, report);
+}
+
+} // namespace
+
+void copy_settings_files(const RtmSetup& setup, ImportReport& report) {
     for (const auto& [from, name] : setup.files) {
         if (fs::exists(setup.output / name)) continue; // two keys can name the same file
         fs::copy_file(from, setup.output / name);
         report.add_file(setup.output / name);
     }
 }
-
-} // namespace
 
 int rtm_import(const RtmImportOptions& options) {
     if (!fs::is_directory(options.folder))

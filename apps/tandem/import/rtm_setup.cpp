@@ -41,8 +41,8 @@ fs::path RtmSetup::resolve(const std::string& file) const {
     return {};
 }
 
-std::string RtmSetup::text() const {
-    std::string text = "# Written by tandem rtm import from " +
+std::string RtmSetup::text(const std::string& writer) const {
+    std::string text = "# Written by " + writer + " from " +
                        text::printable_line((conf.empty() ? installation : conf).string()) +
                        ". Start rtm_host in this folder, as tandem run does.\n";
     const auto add = [&](const char* key, const std::vector<std::string>& entries) {

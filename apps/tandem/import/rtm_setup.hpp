@@ -43,7 +43,8 @@ struct RtmSetup {
     /// Returns an absolute file unchanged, otherwise the first match in the installation and in rtc.conf's folder, or
     /// "".
     std::filesystem::path resolve(const std::string& file) const;
-    std::string text() const; ///< contents of rtc.conf
+    /// Returns the contents of rtc.conf. `writer`: the command that writes it.
+    std::string text(const std::string& writer) const;
 };
 
 /// Returns rtc.conf, rtcd.conf, conf/rtc_cpp.conf or conf/rtc.conf of an installation; "" if there is none.
@@ -52,6 +53,9 @@ std::filesystem::path find_rtc_conf(const std::filesystem::path& installation);
 /// Adds the settings of the file. Throws RTC::ManagerError with file and line if the file cannot be read or if a value
 /// is invalid for its key.
 void read_rtc_conf(RtmSetup& setup, ImportReport& report);
+
+/// Copies the settings files that are not in `output` yet.
+void copy_settings_files(const RtmSetup& setup, ImportReport& report);
 
 /// Replaces modules by ones that rtm_host can load: renames modules of other systems, removes modules of other
 /// languages and of OpenRTM-aist itself, and adds tasks to build missing ones.

@@ -3,7 +3,6 @@
 #include "apps/tandem/build/folder/source_text.hpp"
 
 #include "apps/tandem/opros/component_profiles.hpp"
-#include "apps/tandem/shared_ports/rtc_conf_ports.hpp"
 #include "host/opros/engine/load/load_component.hpp"
 #include "host/opros/engine/load/plugin_dirs.hpp"
 #include "host/plugin/error.hpp"
@@ -52,29 +51,36 @@ std::optional<engine::ComponentProfile> find_profile(const fs::path& place, cons
     }
 }
 
-fs::path select_module(const std::vector<fs::path>& modules, const fs::path& place) {
+} // namespace
+
+ComponentFiles find_component_files(const fs::path& place, const std::string& profile) {
+    ComponentFiles files{module_files(place), std::nullopt, ""};
+    if (files.modules.empty()) files.opros = find_profile(place, profile, files.error);
+    return files;
+}
+
+fs::path select_module(const ComponentFiles& files, const fs::path& place) {
+    const auto& modules = files.modules;
     if (modules.size() == 1) return fs::absolute(modules.front()).lexically_normal();
     throw std::runtime_error(place.string() + " has several RTC modules: " +
                              text::join(modules, ", ", [](const fs::path& each) { return each.string(); }) +
                              "; give one of these files instead of the folder");
 }
 
-RtcType select_type(const fs::path& module, const LinkProfileOptions& options) {
+RtcType select_type(const fs::path& module, const std::string& name, double timeout_s) {
     RtcConfOptions probe;
-    probe.timeout_s = options.timeout_s;
+    probe.timeout_s = timeout_s;
     const auto types = probe_rtc_types(module, probe);
     std::vector<std::string> names;
     for (const auto& type : types) {
-        if (type.name == options.type || (types.size() == 1 && options.type.empty())) return type;
+        if (type.name == name || (types.size() == 1 && name.empty())) return type;
         names.push_back(type.name);
     }
     throw std::runtime_error(
         module.string() + " registers " +
         (names.empty() ? "no component type" : "the component types " + text::join(names, ", ")) +
-        (options.type.empty() ? "; choose one with --type NAME" : ", but not " + options.type));
+        (name.empty() ? "; choose one with --type NAME" : ", but not " + name));
 }
-
-} // namespace
 
 ComponentPair find_component_pair(const LinkProfileOptions& options) {
     std::optional<engine::ComponentProfile> opros;
@@ -82,25 +88,24 @@ ComponentPair find_component_pair(const LinkProfileOptions& options) {
     for (const fs::path& place : {options.first, options.second}) {
         if (!fs::exists(place))
             throw std::runtime_error(place.string() + " does not exist: expected the folder of a component");
-        std::string error;
-        const auto modules = module_files(place);
-        auto profile = modules.empty() ? find_profile(place, options.profile, error) : std::nullopt;
-        if (profile ? opros.has_value() : !module.empty() && !modules.empty())
+        auto files = find_component_files(place, options.profile);
+        if (files.opros ? opros.has_value() : !module.empty() && !files.modules.empty())
             throw std::runtime_error(options.first.string() + " and " + options.second.string() +
-                                     " are both " + (profile ? "OPRoS components" : "RTCs") +
+                                     " are both " + (files.opros ? "OPRoS components" : "RTCs") +
                                      ": expected one of each model");
-        if (profile)
-            opros = std::move(profile);
-        else if (!modules.empty())
-            module = select_module(modules, place);
+        if (files.opros)
+            opros = std::move(files.opros);
+        else if (!files.modules.empty())
+            module = select_module(files, place);
         else
             throw std::runtime_error(
                 place.string() +
-                " has no built RTC (build it with tandem rtm build) and is not an OPRoS component: " + error);
+                " has no built RTC (build it with tandem rtm build) and is not an OPRoS component: " +
+                files.error);
     }
     const auto library = engine::find_component_library(*opros, engine::default_plugin_dirs());
     engine::require_opros_component(library);
-    const RtcType type = select_type(module, options);
+    const RtcType type = select_type(module, options.type, options.timeout_s);
     return {std::move(*opros), library, module, type.name, type.category};
 }
 

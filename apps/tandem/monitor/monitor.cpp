@@ -50,7 +50,8 @@ class Monitor {
         service.files = read_page_files();
         service.metrics = [this] { return metrics_text(state_); };
         if (options.control) {
-            control_.emplace(context, [this]() -> const State& { return state_; });
+            control_.emplace(
+                context, [this]() -> const State& { return state_; }, options.systems);
             service.control = &*control_;
         }
         look();
@@ -79,8 +80,8 @@ class Monitor {
         else
             state_.error = std::move(state.error);
         state_.recording_failure = control_ ? control_->recording_failure() : "";
-        nlohmann::ordered_json control{{"allowed", control_.has_value()},
-                                       {"recording", control_ ? control_->recording() : ""}};
+        const auto control =
+            control_ ? control_->status() : nlohmann::ordered_json{{"allowed", false}, {"recording", ""}};
         service_.state =
             std::make_shared<std::string>(state_json(state_, judge(state_), log_.events(), control));
         server_.publish();

@@ -18,7 +18,8 @@ void add_monitor_command(CLI::App& tandem, Action& selected) {
         "Foxglove and Lichtblick connect to ws://ADDRESS:PORT.\n"
         "Without --control the monitor is read-only. With --control, the printed address contains a token.\n"
         "Clients with the token can activate, connect and configure RT-Components, record, and drive the\n"
-        "wheelchair. Through Foxglove's protocol, at ws://ADDRESS:PORT/?token=..., they can also publish to\n"
+        "wheelchair. With --systems they can also make systems of the built components in DIR, and run them. "
+        "Through Foxglove's protocol, at ws://ADDRESS:PORT/?token=..., they can also publish to\n"
         "ports and call services.\n"
         "Ends with Ctrl-C. Exit code 1 if it cannot listen at that address and port.");
     command->add_option("LINK", options->links, "links to show, including links that do not exist yet (all)");
@@ -36,8 +37,13 @@ void add_monitor_command(CLI::App& tandem, Action& selected) {
                      "let clients address the monitor by this name, besides localhost and the address "
                      "(repeatable)")
         ->type_name("NAME");
-    command->add_flag("--control", options->control,
-                      "let clients that have the printed token control the system");
+    CLI::Option* control = command->add_flag("--control", options->control,
+                                             "let clients that have the printed token control the system");
+    command
+        ->add_option("--systems", options->systems,
+                     "let these clients list, create, save, start and stop the systems in this folder")
+        ->type_name("DIR")
+        ->needs(control);
     command->callback([=, &selected] { selected = [options] { return monitor(*options); }; });
 }
 

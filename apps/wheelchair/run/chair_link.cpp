@@ -9,6 +9,10 @@
 #include "proxy/wire/cdr.hpp"
 #include "shm/os/clock.hpp"
 
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
 namespace tandem::wheelchair {
 
 namespace {
@@ -19,6 +23,16 @@ constexpr const char* signature =
     "{t}d{x}d{y}d{heading_deg}d{stick_x}d{stick_y}d{emergency_stop}d{wheel_left}d{wheel_right}d"
     "{steering_deg}d{reference_deg}d{reference_speed}d{volts_left}d{volts_right}d{brake}d{state}d{drive}s";
 constexpr const char* port_name = "chair";
+
+constexpr std::size_t max_batch = 20; ///< messages; the ring has room for more
+
+/// Returns the newest record at a time, or zeros.
+template <class Record>
+Record last_before(const std::vector<Record>& records, double at) {
+    const auto after = std::upper_bound(records.begin(), records.end(), at,
+                                        [](double time, const Record& each) { return time < each.at; });
+    return after == records.begin() ? Record{} : *std::prev(after);
+}
 
 link::PortTable chair_table() {
     link::Port port;
@@ -46,15 +60,24 @@ ChairLink::ChairLink(const std::string& link, std::string drive) : drive_(std::m
     reader_.emplace(*second_->find_ring(shm::Side::first, link::ring_name(port_name)));
 }
 
+// Of a batch that is late, only the newest ticks are sent.
 void ChairLink::update(const ComponentTraces& traces) {
-    if (traces.hw.records().empty()) return;
-    const HWRecord& hw = traces.hw.records().back();
-    if (hw.sequence == sent_sequence_) return;
-    sent_sequence_ = hw.sequence;
-    const JoystickRecord joystick =
-        traces.joystick.records().empty() ? JoystickRecord{} : traces.joystick.records().back();
-    const ControlRecord control =
-        traces.control.records().empty() ? ControlRecord{} : traces.control.records().back();
+    const auto& ticks = traces.hw.records();
+    const std::size_t all = traces.hw.dropped() + ticks.size(),
+                      added = std::min({all - std::exchange(sent_, all), ticks.size(), max_batch});
+    const std::uint64_t now = shm::now_ns();
+    for (auto hw = ticks.end() - static_cast<std::ptrdiff_t>(added); hw != ticks.end(); ++hw) {
+        const double age = 1e9 * (ticks.back().at - hw->at);
+        send(*hw, last_before(traces.joystick.records(), hw->at),
+             last_before(traces.control.records(), hw->at),
+             now - static_cast<std::uint64_t>(std::max(0.0, age)));
+    }
+    // Empties the ring, because messages in a full ring count as lost. Monitors read the ring without taking messages.
+    while (reader_->read()) continue;
+}
+
+void ChairLink::send(const HWRecord& hw, const JoystickRecord& joystick, const ControlRecord& control,
+                     std::uint64_t stamp_ns) {
     message_.clear();
     wire::CdrWriter out(message_);
     for (const double value :
@@ -64,9 +87,7 @@ void ChairLink::update(const ComponentTraces& traces) {
           joystick.speed, hw.volts_left, hw.volts_right, hw.brake, control.state})
         out.put(value);
     out.put_string(drive_);
-    writer_->write(message_, shm::now_ns());
-    // Empties the ring, because messages in a full ring count as lost. Monitors read the ring without taking messages.
-    while (reader_->read()) continue;
+    writer_->write(message_, stamp_ns);
 }
 
 } // namespace tandem::wheelchair

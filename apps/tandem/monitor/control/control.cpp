@@ -3,6 +3,7 @@
 
 #include "apps/tandem/monitor/control/host_logs.hpp"
 #include "apps/tandem/monitor/control/recordings.hpp"
+#include "host/text/printable.hpp"
 #include "shm/segment/segment_file.hpp"
 
 #include <algorithm>
@@ -27,19 +28,21 @@ namespace {
 
 constexpr std::chrono::milliseconds look_pause{20};
 
-/// Returns the start of a program's output of this size. Replaces all but newlines and printable ASCII by '?'.
+/// Returns the start of a program's output of this size, without control characters and as valid UTF-8.
 std::string text_in(int file, std::size_t size) {
     std::string text(std::min(Programs::max_output, size), '\0');
     const auto bytes = pread(file, text.data(), text.size(), 0);
     text.resize(bytes < 0 ? 0 : static_cast<std::size_t>(bytes));
-    for (char& c : text)
-        if (c != '\n' && (c < ' ' || c > '~')) c = '?';
-    return text;
+    return text::printable_text(text);
+}
+
+std::size_t size_of(int file) {
+    return static_cast<std::size_t>(std::max<off_t>(lseek(file, 0, SEEK_END), 0));
 }
 
 using PlainJson = nlohmann::json;
 
-constexpr std::size_t max_arguments = 16, max_argument = 300;
+constexpr std::size_t max_arguments = 16, max_components = 100, max_argument = 300;
 
 std::string random_token() {
     std::array<unsigned char, 16> bytes{};
@@ -51,17 +54,16 @@ std::string random_token() {
 }
 
 /// Returns texts for a command line. Throws std::invalid_argument if a text could be an option or is too long.
-std::vector<std::string> arguments_in(const PlainJson& list) {
+std::vector<std::string> arguments_in(const PlainJson& list, std::size_t most = max_arguments) {
     std::vector<std::string> arguments;
-    if (!list.is_array() || list.empty() || list.size() > max_arguments)
-        throw std::invalid_argument("expected a list of 1 to 16 strings");
+    if (!list.is_array() || list.empty() || list.size() > most)
+        throw std::invalid_argument(fmt::format("expected a list of 1 to {} strings", most));
     for (const PlainJson& item : list) {
         const auto text = item.get<std::string>();
-        const bool printable =
-            std::all_of(text.begin(), text.end(), [](char c) { return c >= ' ' && c <= '~'; });
-        if (text.empty() || text.size() > max_argument || text.front() == '-' || !printable)
-            throw std::invalid_argument(
-                "expected a string of at most 300 ASCII characters that does not begin with -");
+        if (text.empty() || text.size() > max_argument || text.front() == '-' ||
+            text::printable_line(text) != text)
+            throw std::invalid_argument("expected a string of at most 300 bytes, without control characters, "
+                                        "that does not begin with -");
         arguments.push_back(text);
     }
     return arguments;
@@ -127,7 +129,7 @@ void Programs::look() {
             ++job;
             continue;
         }
-        const auto size = static_cast<std::size_t>(std::max<off_t>(lseek(job->output.get(), 0, SEEK_END), 0));
+        const std::size_t size = size_of(job->output.get());
         const bool cut = size > max_output;
         const std::string output = text_in(job->output.get(), size) +
                                    (late ? "stopped: it took more than 15 s\n" : "") +
@@ -143,14 +145,13 @@ void Programs::look() {
     });
 }
 
-Control::Control(boost::asio::io_context& context, std::function<const State&()> state)
+Control::Control(boost::asio::io_context& context, std::function<const State&()> state,
+                 const std::string& systems)
     : state_(std::move(state)), token_(random_token()),
       program_(std::filesystem::read_symlink("/proc/self/exe").string()), programs_(context),
       publishing_(context, program_, "2"), calling_(context, program_, "5"),
-      stick_socket_(::socket(AF_UNIX, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)) {}
-
-Control::~Control() {
-    if (recorder_) recorder_->stop(std::chrono::seconds(5));
+      stick_socket_(::socket(AF_UNIX, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)) {
+    if (!systems.empty()) systems_.emplace(systems, program_);
 }
 
 bool Control::is_token(std::string_view text) const {
@@ -160,10 +161,29 @@ bool Control::is_token(std::string_view text) const {
     return different == 0;
 }
 
-std::string Control::recording() { return recorder_ && !recorder_->poll() ? recorded_file_ : std::string(); }
+std::string Control::recording() { return recorder_ && !recorder_->look() ? recorded_file_ : std::string(); }
+
+nlohmann::ordered_json Control::status() {
+    const std::string file = recording();
+    nlohmann::ordered_json status{{"allowed", true},
+                                  {"recording", file},
+                                  {"recording_since_ms", file.empty() ? 0 : recorder_->since_ms()},
+                                  {"replay", nullptr},
+                                  {"systems", nullptr}};
+    if (player_) {
+        const bool running = !player_->look();
+        const int output = player_output_.get();
+        status["replay"] = {{"file", replayed_file_},
+                            {"running", running},
+                            {"since_ms", player_->since_ms()},
+                            {"end", running ? "" : text_in(output, size_of(output))}};
+    }
+    if (systems_) status["systems"] = systems_->runs();
+    return status;
+}
 
 std::string Control::recording_failure() {
-    if (!recorder_ || !recorder_->poll() || recorder_->poll()->success()) return "";
+    if (!recorder_ || !recorder_->look() || recorder_->look()->success()) return "";
     return fmt::format("recording to {}: tandem record has failed; its message is where tandem monitor runs",
                        recorded_file_);
 }
@@ -176,8 +196,11 @@ void Control::handle(const std::string& text, const Reply& reply) {
         if (op == "drive") return drive(request, reply);
         if (op == "rtm" || op == "opros") return run_tool(request, reply);
         if (op == "record") return record(request, reply);
+        if (op == "replay") return replay(request, reply);
+        if (op == "system") return change_systems(request, reply);
         if (op == "recordings" || op == "log") return report(request, op, reply);
-        reply(answer(request, false, "expected op drive, rtm, opros, record, recordings or log"));
+        reply(answer(request, false,
+                     "expected op drive, rtm, opros, record, recordings, replay, system or log"));
     } catch (const std::exception& error) { // from JSON: a member has another type
         reply(answer(request, false, error.what()));
     }
@@ -208,10 +231,62 @@ void Control::run_tool(const PlainJson& request, const Reply& reply) {
     std::vector<std::string> command{program_, tool, name};
     if (name != "list" && name != "tree") add_arguments(request, name, command);
     if (request.value("json", false)) command.emplace_back("--json");
-    const PlainJson asked{{"op", tool}, {"id", request.value("id", PlainJson())}};
+    run(command, request, reply);
+}
+
+void Control::run(const std::vector<std::string>& command, const PlainJson& request, const Reply& reply) {
+    const PlainJson asked{{"op", request.value("op", PlainJson(""))},
+                          {"id", request.value("id", PlainJson())}};
     programs_.run(command, [reply, asked](bool success, const std::string& output) {
         reply(answer(asked, success, output));
     });
+}
+
+/// A run's answer says only that it has begun: status() has its state.
+void Control::change_systems(const PlainJson& request, const Reply& reply) {
+    if (!systems_)
+        return reply(
+            answer(request, false,
+                   "there is no folder for systems; start tandem monitor with --control --systems DIR"));
+    const auto command = request.value("command", std::string());
+    if (command == "list") return run(systems_->list_command(), request, reply);
+    const auto name = request.at("name").get<std::string>();
+    if (command == "new")
+        return run(systems_->new_command(name, arguments_in(request.at("components"), max_components)),
+                   request, reply);
+    if (command == "save") {
+        std::vector<std::string> hosts;
+        for (const PlainJson& pid : request.at("hosts")) hosts.push_back(std::to_string(pid.get<unsigned>()));
+        return run(systems_->save_command(name, hosts, request.value("replace", false)), request, reply);
+    }
+    if (command == "log") return reply(answer(request, true, systems_->log(name)));
+    if (command != "start" && command != "stop")
+        return reply(answer(request, false, "expected command list, new, save, start, stop or log"));
+    command == "start" ? systems_->start(name) : systems_->stop(name);
+    reply(answer(request, true, ""));
+}
+
+/// Runs `tandem replay` with a recording of this folder, in place of a host. status() has its state.
+void Control::replay(const PlainJson& request, const Reply& reply) {
+    const bool running = player_ && !player_->look();
+    if (!request.value("on", false)) {
+        if (player_) player_->stop();
+        return reply(answer(request, true, ""));
+    }
+    if (running) return reply(answer(request, false, "already replaying " + replayed_file_));
+    const auto name = request.at("file").get<std::string>();
+    const auto file = find_recording(std::filesystem::current_path(), name);
+    if (!file) return reply(answer(request, false, "there is no recording of this name; list them"));
+    std::vector<std::string> command{program_, "replay", file->string()};
+    for (const auto& [member, option] : {std::pair("in_place_of", "--in-place-of"), {"link", "--link"}})
+        if (request.contains(member))
+            command.insert(command.end(),
+                           {option, arguments_in(PlainJson::array({request[member]})).front()});
+    player_output_ = process::FileDescriptor(memfd_create("tandem-replay", MFD_CLOEXEC));
+    player_.reset();
+    player_.emplace(command, player_output_.get());
+    replayed_file_ = name;
+    reply(answer(request, true, ""));
 }
 
 void Control::report(const PlainJson& request, const std::string& op, const Reply& reply) const {
@@ -223,7 +298,7 @@ void Control::report(const PlainJson& request, const std::string& op, const Repl
 
 void Control::record(const PlainJson& request, const Reply& reply) {
     if (!request.value("on", false)) {
-        if (recorder_) recorder_->terminate(); // it writes the rest, and recording() detects its end
+        if (recorder_) recorder_->stop(); // it writes the rest, and recording() detects its end
         return reply(answer(request, true, recorded_file_));
     }
     if (!recording().empty()) return reply(answer(request, false, "already recording to " + recorded_file_));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "apps/tandem/monitor/control/background_program.hpp"
 #include "apps/tandem/monitor/control/request_program.hpp"
+#include "apps/tandem/monitor/control/systems.hpp"
 #include "apps/tandem/monitor/state.hpp"
 #include "host/process/child_process.hpp"
 
@@ -50,9 +52,10 @@ class Control {
   public:
     using Reply = std::function<void(const nlohmann::json&)>;
 
-    /// `state`: returns the newest State. Throws std::runtime_error if the system provides no random numbers.
-    Control(boost::asio::io_context& context, std::function<const State&()> state);
-    ~Control(); ///< ends a recording properly
+    /// `state`: returns the newest State. `systems`: the folder of systems; empty: none. Throws std::runtime_error if this
+    /// folder does not exist, or if the system provides no random numbers.
+    Control(boost::asio::io_context& context, std::function<const State&()> state,
+            const std::string& systems);
 
     const std::string& token() const { return token_; }
     /// Compares in constant time.
@@ -66,8 +69,9 @@ class Control {
     RequestProgram& publishing() { return publishing_; }
     RequestProgram& calling() { return calling_; }
 
-    /// Returns the file of the current recording; empty if there is none.
-    std::string recording();
+    /// Returns what runs: {"allowed": true, "recording", "recording_since_ms", "replay", "systems"}. "replay": {"file",
+    /// "running", "since_ms", "end"}, or null; "systems": as Systems::runs(), or null without a folder of systems.
+    nlohmann::ordered_json status();
     /// Returns why the last recording has failed; empty if it has not.
     std::string recording_failure();
 
@@ -75,14 +79,20 @@ class Control {
     void drive(const nlohmann::json& request, const Reply& reply);
     void run_tool(const nlohmann::json& request, const Reply& reply);
     void record(const nlohmann::json& request, const Reply& reply);
+    void replay(const nlohmann::json& request, const Reply& reply);
+    void change_systems(const nlohmann::json& request, const Reply& reply);
     void report(const nlohmann::json& request, const std::string& op, const Reply& reply) const;
+    std::string recording();
+    void run(const std::vector<std::string>& command, const nlohmann::json& request, const Reply& reply);
 
     std::function<const State&()> state_;
     std::string token_, program_;
     Programs programs_;
     RequestProgram publishing_, calling_;
-    std::optional<process::ChildProcess> recorder_;
-    std::string recorded_file_;
+    std::optional<BackgroundProgram> recorder_, player_;
+    std::string recorded_file_, replayed_file_;
+    process::FileDescriptor player_output_;
+    std::optional<Systems> systems_;
     process::FileDescriptor stick_socket_;
 };
 

@@ -10,6 +10,7 @@ import {RecordingsView} from './system/recordings_view.js';
 import {SampleStore} from './samples.js';
 import {requestState, socketAddress} from './server.js';
 import {SystemView} from './system/system_view.js';
+import {SystemsView} from './system/systems_view.js';
 import {CallTable, PortTable} from './tables.js';
 import {Tabs} from './tabs.js';
 import {TickTable} from './ticks.js';
@@ -23,7 +24,7 @@ const signs = {well: '✓', unseen: '?', setting: '≠', inactive: '○', missin
 let newest = null;
 const connection = new Connection(), control = new ControlPanel(connection), store = new SampleStore();
 const log = new LogView(connection), recordings = new RecordingsView(control);
-const system = new SystemView(connection), values = new Values(), plots = new PlotsPanel(store), chair = new Chair(connection, store);
+const system = new SystemView(connection), systems = new SystemsView(connection), values = new Values(), plots = new PlotsPanel(store), chair = new Chair(connection, store);
 
 /** The address of the page contains the shown view or the chosen port, so that it survives a reload and works as a bookmark. */
 function keptPlace() {
@@ -101,7 +102,7 @@ const views = {
   'plots-section': (state) => { plots.show(state); values.show(state); },
   'links-section': (state) => { ports.show(state.links); calls.show(state.links); },
   'ticks-section': (state) => ticks.show(state),
-  'control-section': (state) => system.show(state),
+  'control-section': (state) => { system.show(state); systems.show(state); },
   'events-section': (state) => {
     events.show([...state.events].reverse(), (event) => `${event.number} ${event.time_ms}`);
     find('events-empty').hidden = state.events.length > 0;

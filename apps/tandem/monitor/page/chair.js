@@ -3,6 +3,7 @@
 // geometry: metres and degrees, x to the right, y up, angles to the left.
 import {makeSvg, number, setAttributes, setClass, setText} from './dom.js';
 import {EmergencyStop} from './emergency.js';
+import {GamepadInput} from './gamepad.js';
 import {MapView} from './shapes/map_view.js';
 import {PlotView, loadPlots} from './plot_view.js';
 import {Stick} from './stick.js';
@@ -55,6 +56,7 @@ export class Chair {
     this.steering = new PlotView(find('steering'), {curves: [], seconds: 30, range: null}, store);
     this.map = new MapView(find('chair-map'), createBody());
     this.whole = false; // shows the whole path, else the surroundings of the chair
+    find('chair-choice').addEventListener('change', () => setText(find('chair-ended'), ''));
     find('chair-whole').addEventListener('click', () => {
       this.whole = !this.whole;
       setAttributes(find('chair-whole'), {'aria-pressed': this.whole});
@@ -62,8 +64,9 @@ export class Chair {
     });
     this.createStick();
     this.stick = new Stick(find('chair-stick'), [90, 92], 66, connection);
+    this.gamepad = new GamepadInput(this.stick, () => !find('chair-section').hidden);
     this.stick.onchange = (drives) => setText(find('drive-hint'), drives
-      ? 'Drag the stick, or use the arrow keys while it has the focus.' : 'To drive, enter the token under Control.');
+      ? 'Drag the stick, use the arrow keys while it has the focus, or use a gamepad at this browser.' : 'To drive, enter the token under Control.');
     this.emergency = new EmergencyStop(find('emergency'), find('drive-answer'), connection);
     this.emergency.onstop = () => this.stick.release();
     connection.driveFailed = (reason) => this.emergency.tell(true, `✕ The stick is not sent: ${reason}`);
@@ -82,8 +85,10 @@ export class Chair {
   }
 
   show(state) {
-    this.offerChairs(chairsIn(state).map((each) => each.link));
+    const links = chairsIn(state).map((each) => each.link);
+    this.offerChairs(links);
     const chair = findChair(state, find('chair-choice').value);
+    if (chair && this.link !== null && !links.includes(this.link)) this.tellEnded(this.link, chair.link);
     this.stick.offer(chair !== null && chair.drive ? chair.link : null);
     if (chair === null) {
       if (this.link !== null) setText(find('chair-state'), 'The wheelchair has ended.');
@@ -98,6 +103,11 @@ export class Chair {
     this.drawMap(chair);
     this.drawStick(chair);
     if (!find('chair-section').hidden) this.drawSteering(keyOfPort({name: chair.link}, chair.port));
+  }
+
+  /** Another chair in place of the chosen one must not go unnoticed. */
+  tellEnded(ended, shown) {
+    setText(find('chair-ended'), `✕ The wheelchair ${ended} has ended. This is ${shown}.`);
   }
 
   /** Lets the person choose if there are several. */

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The stick on the page for mouse, finger or arrow keys. It sends its position while it is held. `wheelchair` treats
+// The stick on the page for mouse, finger, arrow keys or gamepad.js. It sends its position while it is held. `wheelchair` treats
 // 200 ms without a position as a released stick, so that a lost page does not drive.
 const pause = 40; // ms between two positions
 const maxCounts = 2000, countsByKey = 1000;
@@ -43,7 +43,11 @@ export class Stick {
 
   follow(event) {
     const place = new DOMPoint(event.clientX, event.clientY).matrixTransform(this.svg.getScreenCTM().inverse());
-    const x = (this.centre[0] - place.x) / this.reach, y = (this.centre[1] - place.y) / this.reach;
+    this.push((this.centre[0] - place.x) / this.reach, (this.centre[1] - place.y) / this.reach);
+  }
+
+  /** Moves it to the left and forward, in shares of its reach. */
+  push(x, y) {
     const length = Math.max(1, Math.hypot(x, y));
     this.move(maxCounts * x / length, maxCounts * y / length);
   }

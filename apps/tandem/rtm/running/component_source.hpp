@@ -29,6 +29,10 @@ struct ComponentSource {
 /// that do not answer.
 std::vector<ComponentSource> enumerate_components(const RtmClient& client);
 
+/// Reads the ports and connections of a source's components: [{"instance", "address", "state", "error", "ports": [{"name",
+/// "kind", "type", "connected_with", "properties", "connections": [{"id", "name", "with", "properties"}]}]}].
+nlohmann::json describe_components(const ComponentSource& source);
+
 /// Throws std::runtime_error with one line if no source has answered, or if a source that the user named has not.
 void throw_if_sources_failed(const RtmClient& client, const std::vector<ComponentSource>& sources);
 

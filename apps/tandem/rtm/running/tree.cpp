@@ -9,14 +9,6 @@
 namespace tandem::command {
 namespace {
 
-/// The data of a port in the tree.
-struct PortEntry {
-    std::string name, kind, type;
-    std::vector<std::string> connected_with;
-    nlohmann::json properties;  ///< dataport.*: what the port supports
-    nlohmann::json connections; ///< ids, names, the other ports and properties of the connections
-};
-
 /// Returns the properties of data ports and their connections that are texts.
 nlohmann::json dataport_properties(const SDOPackage::NVList& list) {
     nlohmann::json properties = nlohmann::json::object();
@@ -38,78 +30,100 @@ std::string peer_name(RTC::PortService_ptr port) {
     }
 }
 
+nlohmann::json connections_of(RTC::PortService_ptr port, const RTC::PortProfile& profile) {
+    nlohmann::json connections = nlohmann::json::array();
+    for (CORBA::ULong c = 0; c < profile.connector_profiles.length(); ++c) {
+        const auto& connection = profile.connector_profiles[c];
+        nlohmann::json others = nlohmann::json::array();
+        for (CORBA::ULong p = 0; p < connection.ports.length(); ++p)
+            if (!connection.ports[p]->_is_equivalent(port)) others.push_back(peer_name(connection.ports[p]));
+        connections.push_back({{"id", connection.connector_id.in()},
+                               {"name", connection.name.in()},
+                               {"with", others},
+                               {"properties", dataport_properties(connection.properties)}});
+    }
+    return connections;
+}
+
+// Returns the data type; of a service port, which has none, its interfaces.
+std::string type_of(const RTC::PortProfile& profile) {
+    std::string type = NVUtil::toString(profile.properties, "dataport.data_type");
+    for (CORBA::ULong k = 0; k < profile.interfaces.length(); ++k) {
+        const auto& one = profile.interfaces[k];
+        type += fmt::format("{}{} {}", type.empty() ? "" : ", ",
+                            one.polarity == RTC::PROVIDED ? "provides" : "requires",
+                            static_cast<const char*>(one.type_name));
+    }
+    return type;
+}
+
 // Makes remote calls: one for the list, one for each port and one for each connected port.
-std::vector<PortEntry> ports_of(RTC::RTObject_ptr component) {
-    std::vector<PortEntry> lines;
+nlohmann::json ports_of(RTC::RTObject_ptr component) {
+    nlohmann::json list = nlohmann::json::array();
     RTC::PortServiceList_var ports = component->get_ports();
     for (CORBA::ULong i = 0; i < ports->length(); ++i) {
         RTC::PortProfile_var profile = ports[i]->get_port_profile();
-        PortEntry line{static_cast<const char*>(profile->name),
-                       NVUtil::toString(profile->properties, "port.port_type"),
-                       NVUtil::toString(profile->properties, "dataport.data_type"),
-                       {},
-                       dataport_properties(profile->properties),
-                       nlohmann::json::array()};
-        for (CORBA::ULong k = 0; k < profile->interfaces.length(); ++k) {
-            const auto& one = profile->interfaces[k];
-            // A service port has interfaces instead of a data type.
-            line.type += fmt::format("{}{} {}", line.type.empty() ? "" : ", ",
-                                     one.polarity == RTC::PROVIDED ? "provides" : "requires",
-                                     static_cast<const char*>(one.type_name));
-        }
-        for (CORBA::ULong c = 0; c < profile->connector_profiles.length(); ++c) {
-            const auto& connection = profile->connector_profiles[c];
-            nlohmann::json others = nlohmann::json::array();
-            for (CORBA::ULong p = 0; p < connection.ports.length(); ++p)
-                if (!connection.ports[p]->_is_equivalent(ports[i]))
-                    others.push_back(line.connected_with.emplace_back(peer_name(connection.ports[p])));
-            line.connections.push_back({{"id", connection.connector_id.in()},
-                                        {"name", connection.name.in()},
-                                        {"with", others},
-                                        {"properties", dataport_properties(connection.properties)}});
-        }
-        lines.push_back(line);
+        const auto connections = connections_of(ports[i], profile.in());
+        nlohmann::json connected_with = nlohmann::json::array();
+        for (const auto& connection : connections)
+            for (const auto& other : connection["with"]) connected_with.push_back(other);
+        list.push_back({{"name", static_cast<const char*>(profile->name)},
+                        {"kind", NVUtil::toString(profile->properties, "port.port_type")},
+                        {"type", type_of(profile.in())},
+                        {"connected_with", connected_with},
+                        {"properties", dataport_properties(profile->properties)},
+                        {"connections", connections}});
     }
-    return lines;
+    return list;
+}
+
+std::string tree_text(const ComponentSource& source, const nlohmann::json& components) {
+    std::string text = (source.error.empty() ? source.kind + " " + source.address : source.error) + "\n";
+    for (std::size_t i = 0; i < components.size(); ++i) {
+        const ComponentEntry& entry = source.components[i];
+        text +=
+            fmt::format("  {} {}\n", entry.instance.empty() ? entry.address : entry.instance,
+                        entry.error.empty() ? entry.describe_state() : "UNREACHABLE (" + entry.error + ")");
+        for (const auto& port : components[i]["ports"]) {
+            text += fmt::format("    {} {} {}\n", port["name"].get<std::string>(),
+                                port["kind"].get<std::string>(), port["type"].get<std::string>());
+            for (const auto& other : port["connected_with"])
+                text += "      <-> " + other.get<std::string>() + "\n";
+        }
+    }
+    return text;
 }
 
 } // namespace
 
-// Creates text and JSON in one pass, because each read of a port is a remote call.
+nlohmann::json describe_components(const ComponentSource& source) {
+    nlohmann::json components = nlohmann::json::array();
+    for (const auto& entry : source.components) {
+        nlohmann::json ports = nlohmann::json::array();
+        std::string error = entry.error;
+        try {
+            if (error.empty() && !CORBA::is_nil(entry.object.in())) ports = ports_of(entry.object.in());
+        } catch (const CORBA::SystemException& e) {
+            error = e._name(); // it has ended since it was listed
+        }
+        components.push_back({{"instance", entry.instance},
+                              {"address", entry.address},
+                              {"state", entry.state},
+                              {"error", error},
+                              {"ports", ports}});
+    }
+    return components;
+}
+
+// Creates the text from the JSON, because each read of a port is a remote call.
 int rtm_tree(const RtmClientOptions& options) {
     const RtmClient client(options);
     nlohmann::json json = nlohmann::json::array();
     std::string text;
     const auto sources = enumerate_components(client);
     for (const auto& source : sources) {
-        nlohmann::json components = nlohmann::json::array();
-        text += (source.error.empty() ? source.kind + " " + source.address : source.error) + "\n";
-        for (const auto& entry : source.components) {
-            nlohmann::json ports = nlohmann::json::array();
-            std::string error = entry.error;
-            text += fmt::format("  {} {}\n", entry.instance.empty() ? entry.address : entry.instance,
-                                error.empty() ? entry.describe_state() : "UNREACHABLE (" + error + ")");
-            try {
-                if (error.empty() && !CORBA::is_nil(entry.object.in()))
-                    for (const auto& port : ports_of(entry.object.in())) {
-                        ports.push_back({{"name", port.name},
-                                         {"kind", port.kind},
-                                         {"type", port.type},
-                                         {"connected_with", port.connected_with},
-                                         {"properties", port.properties},
-                                         {"connections", port.connections}});
-                        text += fmt::format("    {} {} {}\n", port.name, port.kind, port.type);
-                        for (const auto& other : port.connected_with) text += "      <-> " + other + "\n";
-                    }
-            } catch (const CORBA::SystemException& e) {
-                error = e._name(); // it has ended since it was listed
-            }
-            components.push_back({{"instance", entry.instance},
-                                  {"address", entry.address},
-                                  {"state", entry.state},
-                                  {"error", error},
-                                  {"ports", ports}});
-        }
+        const auto components = describe_components(source);
+        text += tree_text(source, components);
         json.push_back({{"kind", source.kind},
                         {"address", source.address},
                         {"error", source.error},

@@ -8,6 +8,7 @@
 #include <coil/stringutil.h>
 #include <rtm/CORBA_SeqUtil.h>
 #include <rtm/CorbaNaming.h>
+#include <unistd.h>
 
 namespace RTC {
 
@@ -68,7 +69,7 @@ typename Interface::_ptr_type resolve_by_key(CORBA::ORB_ptr orb, const std::stri
     throw RemoteUnavailable(what + " " + address + ": " + cause);
 }
 
-const std::string local_prefix = "unix:";
+const std::string local_prefix = "unix:", own_manager = "unix:self";
 
 // A process may have left a socket that another process with the same id did not remove. The socket that answers
 // counts.
@@ -95,6 +96,8 @@ CosNaming::NamingContext_ptr resolve_name_server(CORBA::ORB_ptr orb, const std::
 }
 
 RTM::Manager_ptr resolve_manager(CORBA::ORB_ptr orb, const std::string& address, unsigned long milliseconds) {
+    if (address == own_manager)
+        return resolve_local_manager(orb, local_manager_address(getpid()), milliseconds);
     if (address.compare(0, local_prefix.size(), local_prefix) == 0)
         return resolve_local_manager(orb, address, milliseconds);
     const std::string manager = with_default_port(address, 2810);

@@ -17,6 +17,27 @@ export function compressionOf(pixels) {
   return begins(pixels, [0x89, 0x50, 0x4e, 0x47]) ? 'image/png' : null;
 }
 
+/** More pixels than this are not decoded: few bytes may say that they are many. 8192 x 8192 pixels need 256 MiB. */
+const mostPixels = 2 ** 26;
+
+/** Returns [width, height] as the header of a JPEG says: of the first frame (SOF) behind the other segments. */
+function jpegSize(pixels, view) {
+  for (let at = 2; at + 9 <= pixels.length && pixels[at] === 0xff;) {
+    const marker = pixels[at + 1];
+    if (marker === 0xff) ++at; // a byte that fills
+    else if (marker >= 0xc0 && marker <= 0xcf && ![0xc4, 0xc8, 0xcc].includes(marker)) return [view.getUint16(at + 7), view.getUint16(at + 5)];
+    else at += 2 + view.getUint16(at + 2);
+  }
+  return null;
+}
+
+/** Returns [width, height] as the header of a compressed picture says; null if it says none. */
+export function sizeIn(pixels) {
+  const view = new DataView(pixels.buffer, pixels.byteOffset, pixels.length);
+  if (compressionOf(pixels) === 'image/jpeg') return jpegSize(pixels, view);
+  return pixels.length >= 24 ? [view.getUint32(16), view.getUint32(20)] : null; // IHDR is the first chunk of a PNG
+}
+
 /** The places of red, green and blue within a pixel of so many bytes; the second byte of 16 bits is the more significant one. */
 function colourPlaces(bytes, format) {
   if (bytes === 1) return [0, 0, 0];
@@ -54,6 +75,8 @@ export class PictureView {
     this.shown = picture;
     const {pixels} = picture, type = compressionOf(pixels);
     if (!type) return this.draw(picture, this.imageOf(picture));
+    const size = sizeIn(pixels);
+    if (!size || size[0] * size[1] > mostPixels) return this.refuse(size ? `its header says ${size[0]} × ${size[1]} pixels: too many to be shown` : 'its header has no size');
     this.decodes = true;
     const image = await createImageBitmap(new Blob([pixels], {type})).catch(() => null);
     this.decodes = false;
@@ -64,15 +87,19 @@ export class PictureView {
   /** `image`: null if the picture cannot be shown. */
   draw(picture, image) {
     const {port, pixels, format} = picture, {width, height} = image ?? picture;
-    this.canvas.hidden = image === null;
-    if (image === null)
-      return setText(this.caption, `✕ ${width} × ${height} pixels with ${pixels.length} bytes${format ? `, format ${format}` : ''}: cannot be shown`);
+    if (image === null) return this.refuse(`${width} × ${height} pixels with ${pixels.length} bytes${format ? `, format ${format}` : ''}: cannot be shown`);
+    this.canvas.hidden = false;
     if (this.canvas.width !== width || this.canvas.height !== height) Object.assign(this.canvas, {width, height});
     const context = this.canvas.getContext('2d');
     if (image instanceof ImageData) context.putImageData(image, 0, 0);
     else context.drawImage(image, 0, 0);
     setAttributes(this.canvas, {role: 'img', 'aria-label': `Picture of ${port}`});
     setText(this.caption, `${width} × ${height} pixels${format ? `, ${format}` : ''}`);
+  }
+
+  refuse(why) {
+    this.canvas.hidden = true;
+    setText(this.caption, `✕ ${why}`);
   }
 
   imageOf(picture) {

@@ -11,7 +11,7 @@ let monitor, browser, page, shown, real;
 function state() {
   const all = Array.from({ length: components }, (_, i) => ({ name: `Comp${i}`, program: "rtm_host", pid: 7, state: i === 3 ? "error" : "active", in_cycle_s: 0 }));
   return { ...real, time_ms: Date.now(), verdict: { level: "failed", text: "A component has failed", reason: "Comp3 of rtm_host (pid 7) is in ERROR", findings: 1, worst: [] },
-    control: { allowed: true, recording: "/home/a/tandem-20260102-030405.mcap" }, components: all,
+    control: { allowed: true, recording: "/home/a/tandem-20260102-030405.mcap", recording_since_ms: Date.now() - 5000 }, components: all,
     ticks: all.map(({ name, pid }, slot) => ({ name, slot, program: "rtm_host", pid, period_ns: 1e7, ticks_per_s: 100, ticks: 5, overruns: 0, overruns_recently: 0, skipped: 0, latest_ns: 1e3, hang: null, lateness: null, execution: null, longest_ns: 1e3 })),
     events: [{ number: 1, time_ms: Date.now(), bad: true, link: "a", text: "Comp3 has failed" }] };
 }

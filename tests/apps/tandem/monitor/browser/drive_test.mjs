@@ -77,6 +77,52 @@ test("arrow keys drive while they are held", async () => {
   await chairUntil((now) => now.stick_y === 0 && now.stick_x === 0, "a released stick");
 });
 
+test("a finger drives while it is down", async () => {
+  const touch = await page.context().newCDPSession(page), box = await page.locator("#chair-stick .pad").boundingBox();
+  const at = (up) => [{ x: box.x + box.width / 2, y: box.y + box.height / 2 * (1 - up) }];
+  await touch.send("Input.dispatchTouchEvent", { type: "touchStart", touchPoints: at(0) });
+  await touch.send("Input.dispatchTouchEvent", { type: "touchMove", touchPoints: at(0.6) });
+  await chairUntil((now) => now.stick_y > 1000, "a stick to the front");
+  await touch.send("Input.dispatchTouchEvent", { type: "touchEnd", touchPoints: [] });
+  await chairUntil((now) => now.stick_y === 0 && now.stick_x === 0, "a released stick");
+});
+
+test("a gamepad at the browser drives while its stick is away from the centre, and the view is shown", async () => {
+  const move = (axes) => page.evaluate((to) => {
+    window.pads = to ? [null, { connected: true, axes: to }] : [];
+    navigator.getGamepads = () => window.pads;
+    dispatchEvent(new Event(to ? "gamepadconnected" : "gamepaddisconnected"));
+  }, axes);
+  await page.bringToFront();
+  await move([0.03, -0.05]);
+  await move([-0.5, -0.8]);
+  await chairUntil((now) => now.stick_y === 1600 && now.stick_x === 1000, "a stick to the front and left");
+  await page.locator("#graph-anchor").click();
+  await chairUntil((now) => now.stick_y === 0 && now.stick_x === 0, "a released stick");
+  await page.locator("#chair-anchor").click();
+  await chairUntil((now) => now.stick_y === 1600, "a stick to the front");
+  await move(null);
+  await chairUntil((now) => now.stick_y === 0 && now.stick_x === 0, "a released stick");
+});
+
+test("another chair in place of the one that has ended is not shown silently", async () => {
+  const two = await browser.open(), real = await (await fetch(`${address}/api/state`)).json();
+  const chairs = real.links.find((link) => link.ports.some(({ name }) => name === "chair"));
+  let links = [...real.links, { ...chairs, name: "other-chair" }];
+  await two.routeWebSocket(/api\/live/, (socket) => {
+    const timer = setInterval(() => socket.send(JSON.stringify({ ...real, links })), 200).unref();
+    socket.onClose(() => clearInterval(timer));
+  });
+  await two.goto(`${address}/`);
+  await two.locator("#chair-anchor").click();
+  await two.locator("#chair-choice").selectOption("other-chair");
+  await two.waitForTimeout(500);
+  assert.equal(await two.locator("#chair-ended").textContent(), "");
+  links = real.links;
+  await two.waitForFunction((now) => document.querySelector("#chair-ended").textContent === `✕ The wheelchair other-chair has ended. This is ${now}.`, chairs.name);
+  await two.close();
+});
+
 test("a browser that is lost while it drives stops the chair", async () => {
   const other = await startBrowser([]);
   const driver = await other.open(monitor.url);

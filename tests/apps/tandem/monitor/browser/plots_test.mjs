@@ -164,3 +164,18 @@ test("the numbers of a port that come and go do not take more and more memory", 
   assert.ok(columns <= 128, `${columns} columns`);
   assert.deepEqual([kept, newest], [1, -3000]);
 });
+
+test("the steering angle is plotted at 100 Hz, two clicks after the page was opened", async () => {
+  const opened = await browser.open();
+  const times = [];
+  opened.on("websocket", (socket) => socket.url().includes("/api/samples") && socket.on("framereceived", ({ payload }) => {
+    for (const { port, samples: rows } of JSON.parse(payload).ports ?? []) if (port === "chair") times.push(...rows.map((row) => row[1]));
+  }));
+  await opened.goto(monitor.url);
+  await opened.locator("#chair-anchor").click();
+  await opened.waitForFunction(() => document.querySelector("#steering .name")?.textContent === "steering_deg");
+  while (times.length < 100) await opened.waitForTimeout(100); // the test has a time limit
+  const periods = times.slice(1).map((time, i) => time - times[i]).sort((a, b) => a - b);
+  assert.ok(periods[50] > 9 && periods[50] < 11, `a period of ${periods[50]} ms`);
+  await opened.close();
+});

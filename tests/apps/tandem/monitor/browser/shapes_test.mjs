@@ -60,7 +60,11 @@ test("a port with a pose shows its path and its numbers", async () => {
 test("poses, distances and pictures are recognized by their members", async () => {
   const result = await page.evaluate(async () => {
     const { poseIn, rangesIn, pointsAround } = await import("./shapes/shapes.js");
-    const { coloursOf, compressionOf } = await import("./shapes/pictures.js");
+    const { PictureView, coloursOf, compressionOf, sizeIn } = await import("./shapes/pictures.js");
+    const large = new Uint8Array(33), view = new PictureView(); // a PNG of 65,535 x 65,535 pixels
+    large.set([0x89, 0x50, 0x4e, 0x47, 13, 10, 26, 10, 0, 0, 0, 13, 73, 72, 68, 82, 0, 0, 0xff, 0xff, 0, 0, 0xff, 0xff]);
+    await view.show({ port: "camera", width: 1, height: 1, format: "PNG", pixels: large });
+    const jpeg = Uint8Array.of(0xff, 0xd8, 0xff, 0xe0, 0, 4, 0, 0, 0xff, 0xc0, 0, 17, 8, 0, 240, 1, 64, 3);
     const grey = coloursOf({ width: 2, height: 1, format: "", pixels: Uint8Array.of(7, 9) });
     return {
       poses: [["data.position.x", "data.position.y", "data.heading"], ["t", "x", "y", "heading_deg"], ["data.position.x", "data.position.y", "data.position.z",
@@ -70,11 +74,13 @@ test("poses, distances and pictures are recognized by their members", async () =
       bgr: [...coloursOf({ width: 1, height: 1, format: "bitmap", pixels: Uint8Array.of(1, 2, 3) })],
       grey: [...grey],
       short: coloursOf({ width: 100, height: 100, format: "", pixels: Uint8Array.of(1) }),
+      sizes: [sizeIn(jpeg), sizeIn(jpeg.subarray(0, 12)), sizeIn(large.subarray(0, 20))], large: [view.canvas.hidden, view.caption.textContent],
       compressed: [compressionOf(Uint8Array.of(0xff, 0xd8, 0xff, 0xe0)), compressionOf(Uint8Array.of(1, 2))],
     };
   });
   assert.deepEqual(result, { poses: ["data.heading", "heading_deg", "data.orientation.y", null, null], ranges: [true, null, null], points: [[1, 0], [2, 0]],
-    bgr: [3, 2, 1, 255], grey: [7, 7, 7, 255, 9, 9, 9, 255], short: null, compressed: ["image/jpeg", null] });
+    bgr: [3, 2, 1, 255], grey: [7, 7, 7, 255, 9, 9, 9, 255], short: null, compressed: ["image/jpeg", null],
+    sizes: [[320, 240], null, null], large: [true, "✕ its header says 65535 × 65535 pixels: too many to be shown"] });
 });
 
 test("a map has at most 21 lines in each direction, whatever numbers a message has", async () => {

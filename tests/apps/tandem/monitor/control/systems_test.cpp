@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pages with the token create, start and stop the systems of one folder. browser/build_test.mjs does so with components.
+#include "../http_client.hpp"
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+using namespace tandem::monitor::test;
+using namespace tandem::shm::test;
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+/// A folder of systems, and a monitor that runs them.
+struct SystemsFolder {
+    SystemsFolder() {
+        std::string name = (fs::temp_directory_path() / "tandem-systems-XXXXXX").string();
+        path = mkdtemp(name.data());
+    }
+    ~SystemsFolder() { fs::remove_all(path); }
+    SystemsFolder(const SystemsFolder&) = delete;
+    SystemsFolder& operator=(const SystemsFolder&) = delete;
+
+    /// A system of an RTM host only.
+    void add(const std::string& name, const std::string& settings = "") const {
+        fs::create_directories(path / name / "rtm");
+        std::ofstream(path / name / "rtm/rtc.conf") << "naming.enable: NO\nmanager.shutdown_auto: NO\n"
+                                                    << settings;
+    }
+    std::vector<std::string> options() const { return {"--control", "--systems", path.string()}; }
+
+    fs::path path;
+};
+
+json ask(const RunningMonitor& monitor, json request) {
+    Live client(monitor, 0, "/api/control");
+    client.send(json{{"token", monitor.token}}.dump());
+    client.next();
+    request["op"] = "system";
+    client.send(request.dump());
+    return client.next();
+}
+
+json run_of(const RunningMonitor& monitor) {
+    const json runs = state(monitor)["control"]["systems"];
+    return runs.empty() ? json::object() : runs[0];
+}
+
+} // namespace
+
+TEST_CASE("without --systems a client with the token runs no system") {
+    const RunningMonitor monitor("no-link", "--control");
+    const json reply = ask(monitor, {{"command", "list"}});
+    CHECK(reply["ok"] == false);
+    CHECK_THAT(reply["text"].get<std::string>(), Catch::Contains("--control --systems DIR"));
+    CHECK(state(monitor)["control"]["systems"].is_null());
+}
+
+TEST_CASE("a missing folder of systems, or one without --control, ends the monitor with one line") {
+    const auto missing = tandem::test::tandem_program(
+        {"monitor", "no-link", "--port", "0", "--control", "--systems", "/tmp/no-such-folder"});
+    CHECK(missing.exit_code == 1);
+    CHECK(missing.errors == "tandem: /tmp/no-such-folder is not a folder: --systems needs an existing one\n");
+    CHECK(tandem::test::tandem_program({"monitor", "no-link", "--systems", "/tmp"}).exit_code != 0);
+}
+
+TEST_CASE("no name leads out of the folder of systems") {
+    const SystemsFolder folder, other;
+    other.add("outside");
+    fs::create_directory_symlink(other.path / "outside", folder.path / "linked");
+    const RunningMonitor monitor("no-link", folder.options());
+    for (const std::string name :
+         {"", ".", "..", "../outside", "a/b", "-x", "linked", "missing", "a b", "a\nb"})
+        for (const char* command : {"start", "stop", "log"}) {
+            INFO(name << " " << command);
+            CHECK(ask(monitor, {{"command", command}, {"name", name}})["ok"] == false);
+        }
+    CHECK(ask(monitor, {{"command", "save"}, {"name", "../new"}, {"hosts", json::array()}})["ok"] == false);
+    CHECK(ask(monitor, {{"command", "new"}, {"name", "x"}, {"components", {"../a"}}})["ok"] == false);
+    CHECK(state(monitor)["control"]["systems"].empty());
+    CHECK(!fs::exists(other.path / "outside/run.log"));
+}
+
+TEST_CASE("the folders of systems and of built components are listed") {
+    const SystemsFolder folder;
+    folder.add("robot");
+    fs::create_directory(folder.path / "notes");
+    fs::copy(TANDEM_PARTS, folder.path, fs::copy_options::recursive);
+    const RunningMonitor monitor("no-link", folder.options());
+    const json list = json::parse(ask(monitor, {{"command", "list"}})["text"].get<std::string>());
+    CHECK(list["systems"] == json{"robot"});
+    CHECK(list["components"] ==
+          json{{{"name", "PartComp"}, {"model", "OPRoS"}}, {{"name", "PartRtc"}, {"model", "RTM"}}});
+}
+
+TEST_CASE("the end of a run that fails is in the state, and its log says why") {
+    const SystemsFolder folder;
+    folder.add("robot", "manager.components.precreate: Nothing\n");
+    const RunningMonitor monitor("no-link", folder.options());
+    REQUIRE(ask(monitor, {{"command", "start"}, {"name", "robot"}})["ok"] == true);
+    CHECK(eventually([&] { return run_of(monitor)["end"] == "exited with 1"; }));
+    CHECK(run_of(monitor)["running"] == false);
+    CHECK_THAT(ask(monitor, {{"command", "log"}, {"name", "robot"}})["text"].get<std::string>(),
+               Catch::Contains("Nothing"));
+}
+
+TEST_CASE("a system runs once at a time, is stopped in order, and ends with the monitor") {
+    const SystemsFolder folder;
+    folder.add("robot");
+    const auto log = [&] {
+        std::ifstream file(folder.path / "robot/run.log");
+        return std::string(std::istreambuf_iterator<char>(file), {});
+    };
+    const auto has = [&](const char* line) { return log().find(line) != std::string::npos; };
+    RunningMonitor monitor("no-link", folder.options());
+    REQUIRE(ask(monitor, {{"command", "start"}, {"name", "robot"}})["ok"] == true);
+    CHECK(ask(monitor, {{"command", "start"}, {"name", "robot"}})["text"] == "robot runs");
+    CHECK(eventually([&] { return has("ready"); }));
+    CHECK(ask(monitor, {{"command", "stop"}, {"name", "robot"}})["ok"] == true);
+    CHECK(eventually([&] { return run_of(monitor)["end"] == "exited with 0"; }));
+    REQUIRE(ask(monitor, {{"command", "start"}, {"name", "robot"}})["ok"] == true);
+    CHECK(eventually([&] { return has("ready"); }));
+    kill(monitor.pid(), SIGTERM);
+    CHECK(eventually([&] { return has("all hosts have ended"); }));
+    CHECK(eventually([&] { return !monitor.runs(); }));
+}
