@@ -131,7 +131,7 @@ export function foldedTopology(topology, folds, isFound = () => false) {
     }
   }
   const notes = [...topology.notes], folded = topology.hosts.filter((host) => host.folded).length;
-  if (folded > 0) notes.push(`Folded hosts: ${folded} of ${topology.hosts.length}; all have ${total} components`);
+  if (folded > 0) notes.push(`${folded} of ${topology.hosts.length} hosts are folded; all hosts have ${total} components`);
   if (topology.hosts.some(({components}) => components.some((component) => component.folded && !component.others)))
     notes.push('Of a folded component, one line stands for all ports of a kind; the view "Ports and calls" lists each');
   const reduced = {hosts: topology.hosts, edges: folder.edges()};
