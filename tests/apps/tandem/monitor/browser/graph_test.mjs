@@ -64,7 +64,7 @@ test("the hosts of 1,000 components begin folded, and show what has failed", asy
   assert.equal(await page.locator("#graph .component.failed").count(), 1);
   assert.match(await page.locator("#graph-note").textContent(), /^4 of 4 hosts are folded; all hosts have 1000 components$/);
   await during("folded, 3 s at rest", () => page.waitForTimeout(3000));
-  await page.locator("#graph-section").screenshot({ path: join(pictures, "graph-folded.png") });
+  await page.screenshot({ path: join(pictures, "graph-folded.png") });
 });
 
 test("a found component of a folded host is marked and in view", async () => {
