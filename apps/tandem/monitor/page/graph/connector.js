@@ -5,6 +5,7 @@ import {connectionsIn, whyNot} from '../system/system.js';
 import {ConnectionDialog} from './connection_dialog.js';
 
 const find = (id) => document.getElementById(id);
+const hint = 'To connect two ports, drag from one to the other, or press C on one and Enter on the other. To end a connection, choose its line.';
 const slack = 6; // px that a click may move
 const shortOf = ({component, name}) => `${component}.${name.startsWith(`${component}.`) ? name.slice(component.length + 1) : name}`;
 
@@ -12,6 +13,7 @@ export class Connector {
   /** `system`: of system_view.js. `redraw`: called when other ports are marked. */
   constructor(drawing, system, redraw) {
     Object.assign(this, {drawing, system, redraw, from: null, dialog: new ConnectionDialog(system)});
+    setText(find('graph-choice'), hint);
     drawing.mark = (port) => this.mark(port);
     drawing.svg.addEventListener('pointerdown', (event) => this.press(event));
     document.addEventListener('keydown', (event) => {
@@ -42,14 +44,15 @@ export class Connector {
 
   /** Returns the class that shows whether a port fits the chosen one. */
   mark(port) {
-    if (!this.from || port === this.from) return '';
+    if (!this.from || port.id === this.from.id) return '';
     const [a, b] = [this.portOf(this.from), this.portOf(port)];
     return a && b && whyNot(a, b) === '' ? ' fits' : ' unfit';
   }
 
   choose(port) {
     this.from = port;
-    setText(find('graph-choice'), port ? `Connect ${port.listed ? shortOf(port.listed) : port.name}: choose the other port. Esc ends this.` : '');
+    setText(find('graph-choice'), port ? `Connect ${port.listed ? shortOf(port.listed) : port.name}: choose the other port. Esc ends this.` : hint);
+    find('graph-choice').classList.toggle('empty', !port);
     this.redraw();
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reduces the graph: one box stands for the components of a folded host, and one port for the ports of a folded component that have
 // the same kind. Draws nothing.
+import {groupsOf} from './groups.js';
 import {hasDetail} from './topology.js';
 
 /** With more components than this, hosts begin folded. */
@@ -40,6 +41,8 @@ function sumOf(ports) {
 class Folder {
   boxes = new Map(); // of ports
   stands = new Map(); // the port that stands for others, by their ids
+  merged = new Set(); // ports that stand for others
+  folded = new Set(); // boxes whose inside is not drawn
 
   constructor(topology) {
     this.topology = topology;
@@ -54,11 +57,8 @@ class Folder {
 
   /** Returns one port for all ports of a side and kind. `more`: members of it. */
   merge(box, ports, more) {
-    const groups = new Map();
-    for (const port of ports) {
-      const key = `${port.side} ${port.mismatch ? 'mismatch' : port.kind}`;
-      groups.set(key, [...groups.get(key) ?? [], port]);
-    }
+    this.folded.add(box);
+    const groups = groupsOf(ports, ({side, kind, mismatch}) => `${side} ${mismatch ? 'mismatch' : kind}`);
     return [...groups].map(([key, members]) => {
       const [first] = members, id = `${box}/${key}`, kind = first.mismatch ? 'mismatch' : first.kind;
       for (const port of members) this.place(port, box);
@@ -71,6 +71,7 @@ class Folder {
         this.stands.set(port.id, id);
         if (port.inner) this.stands.set(port.inner, merged.inner);
       }
+      this.merged.add(id).add(merged.inner);
       this.place(merged, box);
       return merged;
     });
@@ -92,14 +93,11 @@ class Folder {
       name: `${others.length} ${apart.size > 0 ? 'more ' : ''}components`, ports: this.merge(id, ports, {fold: host.fold})}];
   }
 
+  /** Returns the edges between what is drawn; those with the same ends are one. */
   edges() {
-    const groups = new Map();
-    for (const edge of this.topology.edges) {
-      const left = this.stands.get(edge.left) ?? edge.left, right = this.stands.get(edge.right) ?? edge.right;
-      if (this.boxes.get(left) === this.boxes.get(right) && (left !== edge.left || right !== edge.right || this.boxes.get(left).endsWith('/others'))) continue;
-      const key = left === edge.left && right === edge.right ? edge.id : JSON.stringify([left, right, edge.service, edge.toRight, edge.inside]);
-      groups.set(key, [...groups.get(key) ?? [], {...edge, left, right}]);
-    }
+    const moved = this.topology.edges.map((edge) => ({...edge, left: this.stands.get(edge.left) ?? edge.left, right: this.stands.get(edge.right) ?? edge.right}));
+    const drawn = moved.filter(({left, right}) => this.boxes.get(left) !== this.boxes.get(right) || !this.folded.has(this.boxes.get(left)));
+    const groups = groupsOf(drawn, ({id, left, right, service, toRight, inside}) => this.merged.has(left) || this.merged.has(right) ? JSON.stringify([left, right, service, toRight, inside]) : id);
     return [...groups].map(([id, members]) => members.length === 1 ? members[0] : {...members[0], id, connection: undefined, from: undefined, to: undefined,
       port: sumOf(members.map(({port}) => port).filter(Boolean)), dead: members.some(({dead}) => dead), refused: members.find(({refused}) => refused)?.refused,
       title: members.find(({refused}) => refused)?.title ?? `${members.length} connections: ${members.slice(0, mostNamed).map(({title}) => title).join('; ')}`});
@@ -131,7 +129,7 @@ export function foldedTopology(topology, folds, isFound = () => false) {
     }
   }
   const notes = [...topology.notes], folded = topology.hosts.filter((host) => host.folded).length;
-  if (folded > 0) notes.push(`Folded hosts: ${folded} of ${topology.hosts.length}; all have ${total} components`);
+  if (folded > 0) notes.push(`${folded} of ${topology.hosts.length} hosts are folded; all hosts have ${total} components`);
   if (topology.hosts.some(({components}) => components.some((component) => component.folded && !component.others)))
     notes.push('Of a folded component, one line stands for all ports of a kind; the view "Ports and calls" lists each');
   const reduced = {hosts: topology.hosts, edges: folder.edges()};

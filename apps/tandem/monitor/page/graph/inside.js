@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Adds to the graph what hosts list of themselves: components without a link, their ports, and the connections inside hosts and
 // between them that are no links.
+import {groupsOf} from './groups.js';
 
 /** The ports of these components are mirrors, which the graph shows beside the link. */
 const proxyTypes = new Set(['AdaptorComp', 'InterceptorComp']);
@@ -14,17 +15,6 @@ const findPort = (boxes, component, name) => {
     for (const port of box.ports) if (port.name === name || port.name === `${component}.${name}`) return port;
   return undefined;
 };
-
-/** Returns lists of items by their key. */
-function groupsOf(items, keyOf) {
-  const groups = new Map();
-  for (const item of items) {
-    const key = keyOf(item);
-    if (!groups.has(key)) groups.set(key, []);
-    groups.get(key).push(item);
-  }
-  return groups;
-}
 
 /** Whether a port stands for one of the other model, and no connection of a link shows it. */
 const isFree = (boxes, {connections}) => connections.length === 0 && boxes.some(({part}) => part?.type === 'InterceptorComp');

@@ -12,9 +12,9 @@ const manyNodes = 150;
 /** The height above a component's ports: its name, and its state if the host publishes it. */
 const headOf = (component) => hasDetail(component) || component.states ? 44 : 28;
 
-/** Returns a component's node. elkjs makes a host as wide as its components, so these must be as wide as the host's title. */
-function nodeOf(c, least) {
-  const width = Math.max(120, least, boldWidthOf(c.name) + 40, describe(c)[0] ? widestStateOf(c) + 24 : 0, ...c.ports.map((p) => widthOf(labelOf(p)) + (p.alone ? 90 : 24)));
+/** Returns a component's node, at least so wide. */
+function nodeOf(c, least = 120) {
+  const width = Math.max(least, boldWidthOf(c.name) + 40, describe(c)[0] ? widestStateOf(c) + 24 : 0, ...c.ports.map((p) => widthOf(labelOf(p)) + (p.alone ? 90 : 24)));
   // The inner end of a mirror's port has no dot, so that its arrow ends at the box.
   const port = (id, right, i, size = dot) => ({id, width: size, height: size, x: right ? width - size / 2 : -size / 2, y: headOf(c) + row * i + 9 - size / 2,
     layoutOptions: {'elk.port.side': right ? 'EAST' : 'WEST'}});
@@ -22,12 +22,19 @@ function nodeOf(c, least) {
   return {id: c.id, width, height: headOf(c) + 6 + row * c.ports.length, ports, layoutOptions: {'elk.portConstraints': 'FIXED_POS'}};
 }
 
+/** Returns nodes. elkjs makes a host as wide as its components, so one of them must be as wide as the host's title. */
+function wideNodesOf(components, title) {
+  const nodes = components.map((component) => nodeOf(component)), least = boldWidthOf(title) + 20;
+  if (nodes.length > 0 && nodes.every(({width}) => width < least)) nodes[0] = nodeOf(components[0], least);
+  return nodes;
+}
+
 /** Returns the nodes of a host's components. Many without an edge are in a node of their own, which is not drawn. */
 function nodesOf(host, connected, width) {
   const free = host.components.filter(({ports}) => !ports.some(({id, inner}) => connected.has(id) || connected.has(inner)));
-  if (free.length < packed) return host.components.map((c) => nodeOf(c, boldWidthOf(host.title)));
+  if (free.length < packed) return wideNodesOf(host.components, host.title);
   const others = host.components.filter((component) => !free.includes(component));
-  return [...others.map((c) => nodeOf(c, boldWidthOf(host.title))), {id: `${host.id} free`, children: free.map((c) => nodeOf(c, 0)),
+  return [...wideNodesOf(others, host.title), {id: `${host.id} free`, children: free.map((c) => nodeOf(c)),
     layoutOptions: {'elk.algorithm': 'rectpacking', 'elk.hierarchyHandling': 'SEPARATE_CHILDREN', 'elk.aspectRatio': others.length > 0 ? '0.6' : '1.6',
       'elk.rectpacking.widthApproximation.targetWidth': others.length > 0 ? '-1' : String(Math.max(300, width - 60)),
       'elk.spacing.nodeNode': '12', 'elk.padding': '[top=0,left=0,bottom=0,right=0]'}}];

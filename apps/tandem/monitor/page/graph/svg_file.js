@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Writes the graph as an SVG file that needs no other file.
 
-const kept = ['fill', 'stroke', 'stroke-width', 'stroke-dasharray', 'stroke-linecap', 'font-size', 'font-weight', 'text-anchor'];
+/** What is written of the style, with the value that a file has without it. */
+const kept = {fill: '', stroke: 'none', 'stroke-width': '1px', 'stroke-dasharray': 'none', 'stroke-linecap': 'butt'};
+const ofTexts = {'font-size': '', 'font-weight': '400', 'text-anchor': 'start'};
 const tools = '.fold-box, .hit, .rubber';
 
 /** Returns the text of a file with the whole graph, as it looks now. `background`: its colour. */
@@ -11,12 +13,15 @@ export function svgFileOf(svg, background) {
     if (element.closest(tools) || element.matches('g, title')) return;
     const style = getComputedStyle(originals[i]);
     if (style.display === 'none') element.classList.add('hit');
-    for (const name of kept) element.setAttribute(name, style.getPropertyValue(name));
+    for (const [name, initial] of Object.entries(element.matches('text') ? {...kept, ...ofTexts} : kept)) {
+      const value = style.getPropertyValue(name);
+      if (value !== initial) element.setAttribute(name, value);
+    }
   });
   for (const tool of copy.querySelectorAll(tools)) tool.remove();
-  for (const element of copy.querySelectorAll('*')) for (const name of ['class', 'style', 'tabindex', 'role', 'aria-label']) element.removeAttribute(name);
+  for (const element of [copy, ...copy.querySelectorAll('*')])
+    for (const name of ['class', 'style', 'tabindex', 'role', 'aria-label', 'data-port']) element.removeAttribute(name);
   const [, , width, height] = svg.getAttribute('viewBox').split(' ');
-  copy.removeAttribute('style');
   copy.setAttribute('width', width);
   copy.setAttribute('height', height);
   copy.setAttribute('font-family', 'sans-serif');
