@@ -8,7 +8,7 @@ const readable = 0.75;
 export class Zoom {
   /** `scroller`: the element that scrolls, and contains the `svg`. `onmove`: called when another part of the graph is in view. */
   constructor(scroller, svg, onmove) {
-    Object.assign(this, {scroller, svg, onmove, width: 1, height: 1, scale: 1, chosen: false, factor: 1});
+    Object.assign(this, {scroller, svg, onmove, width: 1, height: 1, scale: 1, mode: 'readable', factor: 1});
     scroller.addEventListener('wheel', (event) => this.wheel(event), {passive: false});
     scroller.addEventListener('keydown', (event) => this.key(event));
     scroller.addEventListener('pointerdown', (event) => this.drag(event));
@@ -16,10 +16,11 @@ export class Zoom {
     for (const type of ['touchstart', 'touchmove']) scroller.addEventListener(type, (event) => this.pinch(event), {passive: false});
   }
 
-  /** Takes the size of a new layout. Keeps the scale that a person has chosen. */
+  /** Takes the size of a new layout. Keeps the scale that a person has chosen, or shows the whole graph if that was chosen. */
   resize(width, height) {
     Object.assign(this, {width, height});
-    if (!this.chosen) this.scale = Math.max(readable, Math.min(1, (this.scroller.clientWidth - 2) / width));
+    if (this.mode === 'whole') this.scale = this.whole;
+    if (this.mode === 'readable') this.scale = Math.max(readable, Math.min(1, (this.scroller.clientWidth - 2) / width));
     this.svg.setAttribute('viewBox', `0 0 ${Math.ceil(width)} ${Math.ceil(height)}`);
     this.apply();
   }
@@ -61,7 +62,7 @@ export class Zoom {
 
   /** Shows the whole graph. */
   fit() {
-    this.chosen = true;
+    this.mode = 'whole';
     this.scale = this.whole;
     this.apply();
   }
@@ -72,7 +73,7 @@ export class Zoom {
     const [atX, atY] = [x ?? part.left + part.width / 2, y ?? part.top + part.height / 2];
     this.scale = Math.max(Math.min(least, this.whole), Math.min(most, old * factor));
     if (this.scale === old) return;
-    this.chosen = true;
+    this.mode = 'chosen';
     this.apply();
     const after = this.svg.getBoundingClientRect(), grown = this.scale / old;
     this.scroller.scrollLeft += after.left + (atX - before.left) * grown - atX;

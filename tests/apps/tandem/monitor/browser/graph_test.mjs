@@ -35,7 +35,7 @@ before(async () => {
   tools = await page.context().newCDPSession(page);
   await tools.send("Performance.enable", { timeDomain: "threadTicks" }); // which other programs do not stretch
   await page.routeWebSocket(/api\/live/, (socket) => {
-    const timer = setInterval(() => socket.send(JSON.stringify({ ...state, time_ms: Date.now() })), 200).unref();
+    const timer = setInterval(() => socket.send(JSON.stringify({ ...state, time_ms: Date.now() })), 500).unref();
     socket.onClose(() => clearInterval(timer));
   });
   const began = performance.now();
@@ -138,6 +138,7 @@ test("wheel, keys and buttons zoom, and the point below the pointer stays where 
   assert.ok((await box()).width > 1.2 * after.width);
   const left = await page.locator("#graph").evaluate((part) => part.scrollTop);
   await page.locator("#graph").focus();
+  for (let i = 0; i < 8; ++i) await page.keyboard.press("+");
   await page.keyboard.press("ArrowDown");
   await page.waitForFunction((old) => document.querySelector("#graph").scrollTop > old, left);
   assert.deepEqual(page.errors, []);
