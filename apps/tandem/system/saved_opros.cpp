@@ -35,14 +35,14 @@ void set_property(pugi::xml_node component, const std::string& name, const std::
     property.text().set(value.c_str());
 }
 
-/// Writes the values that differ from those with which the component started.
+/// Writes the values of the profile's properties that differ from those with which the component started.
 void save_properties(pugi::xml_node node, const engine::Subcomponent& component,
                      const engine::ComponentProfile& profile, const nlohmann::json& values) {
     for (const auto& [name, value] : values.items()) {
         if (!value.is_string()) continue;
         const std::string* before = find(component.properties, name);
         if (before == nullptr) before = find(profile.properties, name);
-        if (before == nullptr || *before != value.get<std::string>())
+        if (before != nullptr && *before != value.get<std::string>())
             set_property(node, name, value.get<std::string>());
     }
 }

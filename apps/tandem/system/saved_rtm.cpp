@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cstring>
 #include <set>
 #include <stdexcept>
 
@@ -32,7 +33,9 @@ bool is_chosen(const std::string& key) {
     static const std::set<std::string> single{"dataflow_type", "subscription_type", "interface_type",
                                               "push_policy",   "push_rate",         "skip_count"};
     if (single.contains(key)) return true;
-    for (const char* const prefix : {"buffer.", "inport.buffer.", "outport.buffer.", "publisher."})
+    for (const char* const side : {"inport.", "outport."})
+        if (key.starts_with(side)) return is_chosen(key.substr(std::strlen(side)));
+    for (const char* const prefix : {"buffer.length", "buffer.write.", "buffer.read.", "publisher."})
         if (key.starts_with(prefix)) return true;
     return false;
 }
