@@ -50,7 +50,8 @@ void run_calls(const BoundedCall::Series& series, Progress& progress) {
 std::optional<std::size_t> wait_for(const std::future<void>& end, const BoundedCall::Series& series,
                                     Progress& progress) {
     std::size_t watched = series.count;
-    std::chrono::nanoseconds timeout{0}, report{0};
+    std::chrono::nanoseconds timeout{0}, report{0}, shortest = series.timeout(0);
+    for (std::size_t i = 1; i < series.count; ++i) shortest = std::min(shortest, series.timeout(i));
     for (;;) {
         std::unique_lock lock(progress.mutex);
         const std::size_t current = std::min(progress.current, series.count - 1);
@@ -67,8 +68,9 @@ std::optional<std::size_t> wait_for(const std::future<void>& end, const BoundedC
             series.on_slow(current, std::chrono::duration_cast<std::chrono::seconds>(report));
             report *= 2;
         }
-        if (end.wait_until(began + std::min(report, timeout)) == std::future_status::ready)
-            return std::nullopt;
+        // Looks again before the limit of a call that begins meanwhile.
+        const auto next_look = began + std::min(std::min(report, timeout), took + shortest);
+        if (end.wait_until(next_look) == std::future_status::ready) return std::nullopt;
     }
 }
 
