@@ -198,6 +198,7 @@ TEST_CASE("a header is searched in the whole checkout by the longest matching pa
                  "int solve(int a) { return a; }\n#ifndef NO_MAIN\nint main() {}\n#endif\n");
     folder.write("lib/Program.cpp",
                  "int stop() { return 1; }\n#ifdef _WIN32\n#else\nint main() {}\n#endif\n");
+    folder.write("lib/Gnu.cpp", "int stop() { return 2; }\nint\nmain (int, char**) {}\n");
     CHECK(find_definitions(list_files_below(checkout), "arm::solve(int)") ==
           std::vector<fs::path>{checkout / "lib/Solver.cpp"});
     CHECK(find_definitions(list_files_below(checkout), "stop()").empty());
