@@ -133,7 +133,8 @@ std::string libraries(const Plugin& plugin, const PluginBuildOptions& options) {
 std::string headers_first(const Plugin& plugin) {
     const auto& modules = plugin.linked.modules;
     if (modules.empty()) return "";
-    return fmt::format("pkg_check_modules(LINKED QUIET {})\n"
+    return fmt::format("find_package(PkgConfig REQUIRED)\n"
+                       "pkg_check_modules(LINKED QUIET {})\n"
                        "target_include_directories({} BEFORE PRIVATE ${{LINKED_INCLUDE_DIRS}})\n",
                        fmt::join(modules, " "), plugin.name);
 }
