@@ -26,7 +26,7 @@ function(tandem_is_program source program macro)
         set(in_comment FALSE)
       endif()
       continue()
-    elseif(line MATCHES "/[*]" AND NOT line MATCHES "//.*/[*]|[*]/")
+    elseif(line MATCHES "/[*]" AND NOT line MATCHES "//(.*/)?[*]|[*]/") # //*** begins no comment of several lines
       set(in_comment TRUE)
     endif()
     if(line MATCHES "^[ \t]*#[ \t]*ifndef[ \t]+([A-Za-z0-9_]+)")

@@ -36,7 +36,10 @@ std::vector<std::string> included_names(const fs::path& file) {
 }
 
 bool declares_interface(const fs::path& idl) {
-    std::istringstream words(strip_comments(read_text(idl)));
+    std::string text = strip_comments(read_text(idl));
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return c == '{' || c == '}' || c == ';'; }, ' ');
+    std::istringstream words(text);
     return std::find(std::istream_iterator<std::string>(words), {}, "interface") !=
            std::istream_iterator<std::string>();
 }

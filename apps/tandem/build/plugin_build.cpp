@@ -34,6 +34,7 @@
 #include <string>
 #include <system_error>
 #include <thread>
+#include <utility>
 
 namespace tandem::command {
 namespace {
@@ -132,7 +133,8 @@ std::string libraries(const Plugin& plugin, const PluginBuildOptions& options) {
 std::string headers_first(const Plugin& plugin) {
     const auto& modules = plugin.linked.modules;
     if (modules.empty()) return "";
-    return fmt::format("pkg_check_modules(LINKED QUIET {})\n"
+    return fmt::format("find_package(PkgConfig REQUIRED)\n"
+                       "pkg_check_modules(LINKED QUIET {})\n"
                        "target_include_directories({} BEFORE PRIVATE ${{LINKED_INCLUDE_DIRS}})\n",
                        fmt::join(modules, " "), plugin.name);
 }
@@ -167,12 +169,14 @@ std::vector<fs::path> checkout_files(const fs::path& folder) {
     return checkout.empty() ? std::vector<fs::path>{} : list_files_below(checkout);
 }
 
-// Returns the advice to install a package whose headers were found in the repository instead: such a copy of a library is
-// often one for Windows.
-std::string package_of_neighbours(const NeighbourHeaders& neighbours) {
+// Returns the advice to install a package whose headers were found in the repository instead, if one of these lacks a
+// header: such a copy of a library is often one for Windows.
+std::string package_of_neighbours(const NeighbourHeaders& neighbours, const std::string& error) {
+    if (missing_header(error).empty()) return "";
     for (const auto& [header, file] : neighbours)
         if (const auto found = find_package_of_header(header);
-            found && found->certain && installed_files(found->package).empty())
+            found && found->certain && error.starts_with(file.parent_path().string() + "/") &&
+            installed_files(found->package).empty())
             return fmt::format("apt install {}: its {} replaces the one of this repository", found->package,
                                header);
     return "";
@@ -203,9 +207,8 @@ std::string advice(const std::string& error, const Plugin& plugin, const PluginB
     if (const auto name = dropped_by_opencv(error);
         (plugin.includes.old_opencv || plugin.needs_cv_h) && !name.empty())
         text = "OpenCV 4 no longer has " + name + ": use OpenCV's C++ API";
-    if (const auto package = package_of_neighbours(plugin.neighbours);
-        !package.empty() && !missing_header(error).empty())
-        text = package;
+    if (auto package = package_of_neighbours(plugin.neighbours, error); !package.empty())
+        text = std::move(package);
     return text.empty() ? "" : "; " + text;
 }
 

@@ -140,10 +140,9 @@ class HostWatch {
     bool failed() {
         if (record_.interrupted) return true;
         if (!host_.running() && record_.error.empty())
-            record_.error =
-                first_error_.is_marked()
-                    ? first_error_.text()
-                    : fmt::format("its host {}: {}", host_.process.poll()->text(), first_error_.text());
+            record_.error = first_error_.is_marked()
+                                ? first_error_.text()
+                                : fmt::format("its host {}{}", host_.process.poll()->text(), last_words());
         if (first_error_.bytes() > max_output)
             record_.error = fmt::format("prints more than {} MiB", max_output >> 20);
         return !record_.error.empty();
@@ -153,9 +152,11 @@ class HostWatch {
         return published.callback.empty() ? "" : ": it is in " + published.callback;
     }
 
+    std::string last_words() const { return first_error_.text().empty() ? "" : ": " + first_error_.text(); }
+
     void judge(const Published& before) {
         if (now_.error)
-            record_.error = "goes to its error state: " + first_error_.text();
+            record_.error = "goes to its error state" + last_words();
         else if (!now_.active)
             record_.error = "does not become active" + where(now_);
         else if (now_.has_ticks && !now_.waits && now_.ticks == before.ticks) // a period may be longer
@@ -167,6 +168,7 @@ class HostWatch {
     HostRecord end() {
         const bool was_running = host_.running();
         const bool in_order = supervisor_.stop_all(stop_limit, [this](const auto& events) {
+            record_.interrupted |= events.interrupted;
             for (const auto& [host, line] : events.lines) first_error_.add(line);
         });
         if (was_running && !in_order && record_.runs) {
@@ -174,7 +176,7 @@ class HostWatch {
             const auto& ended = host_.process.poll();
             record_.error =
                 ended && (!ended->signalled || ended->code != SIGKILL)
-                    ? fmt::format("runs, but its host {} at its end: {}", ended->text(), first_error_.text())
+                    ? fmt::format("runs, but its host {} at its end{}", ended->text(), last_words())
                     : fmt::format("runs, but does not end within {} s of SIGTERM", stop_limit.count());
         }
         return record_;

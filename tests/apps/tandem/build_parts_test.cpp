@@ -198,6 +198,7 @@ TEST_CASE("a header is searched in the whole checkout by the longest matching pa
                  "int solve(int a) { return a; }\n#ifndef NO_MAIN\nint main() {}\n#endif\n");
     folder.write("lib/Program.cpp",
                  "int stop() { return 1; }\n#ifdef _WIN32\n#else\nint main() {}\n#endif\n");
+    folder.write("lib/Gnu.cpp", "int stop() { return 2; }\nint\nmain (int, char**) {}\n");
     CHECK(find_definitions(list_files_below(checkout), "arm::solve(int)") ==
           std::vector<fs::path>{checkout / "lib/Solver.cpp"});
     CHECK(find_definitions(list_files_below(checkout), "stop()").empty());
@@ -247,19 +248,24 @@ TEST_CASE("unconditional definitions of the project's CMakeLists.txt are used") 
 TEST_CASE("what a configure script defines on every machine is used without CMakeLists.txt") {
     const Folder folder;
     fs::create_directories(folder.path() / ".git");
-    folder.write("configure.ac",
-                 "# AC_DEFINE([COMMENT])\ndnl AC_DEFINE([NOTE])\n"
-                 "AC_INIT([Robot Ears], [2.1],\n  [me@example.org])\nAM_INIT_AUTOMAKE([1.10 tar-ustar])\n"
-                 "PKG_CHECK_MODULES([GUI], [gui],\n [AC_DEFINE([HAVE_GUI], [1], [if it is there])])\n"
-                 "case ${host_os} in\n  *mingw*) AC_DEFINE([ON_WINDOWS]);;\nesac\n"
-                 "if test x = y; then AC_DEFINE([CHOSEN]); fi\n"
-                 "AC_DEFINE([FLOATING_POINT], [], [Compile as floating-point]) dnl (not fixed)\n"
-                 "AC_DEFINE(CHANNELS, 8, [how many (at most)])\nAC_DEFINE([NAME], [\"ears\"])\n"
-                 "AC_DEFINE([FULL])\nAC_DEFINE([PLACE], [\"$prefix\"])\n");
+    folder.write(
+        "configure.ac",
+        "# AC_DEFINE([COMMENT])\ndnl AC_DEFINE([NOTE])\n"
+        "AC_INIT([Robot Ears], [2.1],\n  [me@example.org])\nAM_INIT_AUTOMAKE([1.10 tar-ustar])\n"
+        "PKG_CHECK_MODULES([GUI], [gui],\n [AC_DEFINE([HAVE_GUI], [1], [if it is there])])\n"
+        "case ${host_os} in\n  *mingw*) AC_DEFINE([ON_WINDOWS]);;\nesac\n"
+        "if test x = y; then AC_DEFINE([CHOSEN]); fi\n"
+        "if a; then b; else if c; then AC_DEFINE([NESTED]); fi; fi\nif a; then\nAC_DEFINE([AFTER])\nfi\n"
+        "test x = y && AC_DEFINE([GUARDED])\ntest z ||\n AC_DEFINE([ELSE])\nm4_ifdef([NEW], "
+        "[AC_DEFINE([OF_NEW])])\n"
+        "# \xe9\nAC_DEFINE([RETURN],\r\n  [2])\nAC_DEFINE([BELL], [\a])\n"
+        "AC_DEFINE([FLOATING_POINT], [], [Compile as floating-point]) dnl (not fixed)\n"
+        "AC_DEFINE(CHANNELS, 8, [how many (at most)])\nAC_DEFINE([NAME], [\"ears\"])\n"
+        "AC_DEFINE([FULL])\nAC_DEFINE([PLACE], [\"$prefix\"])\n");
     const auto rtc = folder.path() / "src";
     folder.write("src/Ears.cpp", "");
     CHECK(read_definitions(rtc) == Names{"PACKAGE_NAME=\"Robot Ears\"", "PACKAGE_VERSION=\"2.1\"",
-                                         "PACKAGE=\"robot-ears\"", "VERSION=\"2.1\"",
+                                         "PACKAGE=\"robot-ears\"", "VERSION=\"2.1\"", "RETURN=2",
                                          "FLOATING_POINT=", "CHANNELS=8", "NAME=\"ears\"", "FULL=1"});
     folder.write("src/CMakeLists.txt", "add_definitions(-DPLAIN)\n");
     CHECK(read_definitions(rtc) == Names{"PLAIN"});

@@ -7,11 +7,14 @@
 #include <set>
 #include <sstream>
 #include <string_view>
+#include <utility>
 
 namespace tandem::command {
 namespace {
 
 using Words = std::vector<std::string>;
+
+bool is_space(char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; }
 
 bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
@@ -25,6 +28,7 @@ std::string without_comments(const std::string& text) {
     std::istringstream lines(text);
     std::string code;
     for (std::string line; std::getline(lines, line); code += line + '\n') {
+        if (line.ends_with('\r')) line.pop_back();
         const auto begin = line.find_first_not_of(" \t");
         if (begin != std::string::npos && line[begin] == '#') line.clear();
         for (auto at = line.find("dnl"); at != std::string::npos; at = line.find("dnl", at + 1))
@@ -45,7 +49,7 @@ std::string_view unquote(std::string_view text) {
     }
 }
 
-// Returns the arguments of the macro whose opening parenthesis is at `at`, and moves `at` behind the call.
+// Returns the arguments of the macro whose opening parenthesis is at `at`, and moves `at` to the closing one.
 Words read_arguments(const std::string& text, std::size_t& at) {
     Words arguments{""};
     int quotes = 0, parentheses = 0;
@@ -63,7 +67,22 @@ Words read_arguments(const std::string& text, std::size_t& at) {
     return arguments;
 }
 
-bool is_plain(const std::string& value) { return value.find_first_of("$;#\\\n`()") == std::string::npos; }
+// Returns whether neither the shell, m4 nor CMake would change the value.
+bool is_plain(const std::string& value) {
+    return value.find_first_of("$;#\\`()") == std::string::npos &&
+           std::none_of(value.begin(), value.end(), [](unsigned char c) { return std::iscntrl(c) != 0; });
+}
+
+// Returns whether the word is in the place of a macro's name before its arguments.
+bool is_macro(const std::string& word) {
+    return std::isupper(static_cast<unsigned char>(word[0])) != 0 || word.starts_with("m4_");
+}
+
+// Returns whether a command of the shell begins behind the word.
+bool precedes_command(const std::string& word) {
+    static const std::set<std::string> words{"then", "else", "elif", "do", "if", "while", "until"};
+    return words.count(word) != 0;
+}
 
 class Reader {
   public:
@@ -75,22 +94,30 @@ class Reader {
             while (end < text.size() && is_word(text[end])) ++end;
             const auto word = text.substr(at, end - at);
             if (word.empty()) {
-                at_command =
-                    text[at] == '\n' || text[at] == ';' || (at_command && std::isspace(text[at]) != 0);
+                at_command = begins_command(text, at) || (at_command && is_space(text[at]));
                 ++at;
                 continue;
             }
             at = end;
-            if (at < text.size() && text[at] == '(' && std::isupper(static_cast<unsigned char>(word[0])) != 0)
+            if (at < text.size() && text[at] == '(' && is_macro(word))
                 call(word, read_arguments(text, at));
             else if (at_command)
                 shell_word(word);
-            at_command = false;
+            at_command = at_command && precedes_command(word);
         }
         return std::move(definitions_);
     }
 
   private:
+    // Returns whether a command of the shell begins behind the character. What follows && or || is conditional up to the end of
+    // the line.
+    bool begins_command(const std::string& text, std::size_t at) {
+        const char c = text[at], before = at > 0 ? text[at - 1] : '\n';
+        if (c == '\n' && before != '&' && before != '|' && before != '\\') after_operator_ = false;
+        if ((c == '&' || c == '|') && before == c) after_operator_ = true;
+        return c == '\n' || c == ';' || c == '&' || c == '|';
+    }
+
     void shell_word(const std::string& word) {
         static const std::set<std::string> begin{"if", "case", "for", "while", "until"},
             end{"fi", "esac", "done"};
@@ -98,15 +125,21 @@ class Reader {
     }
 
     void call(const std::string& macro, const Words& arguments) {
-        if (conditions_ != 0) return;
+        if (conditions_ != 0 || after_operator_) return;
         if (macro == "AC_DEFINE")
             add(arguments[0], arguments.size() > 1 ? arguments[1] : "1");
         else if (macro == "AC_INIT" && arguments.size() > 1)
-            add_package("PACKAGE_NAME", "PACKAGE_VERSION", name_ = arguments[0], version_ = arguments[1]);
+            init(arguments[0], arguments[1]);
         else if (macro == "AM_INIT_AUTOMAKE" && arguments.size() > 1)
             add_package("PACKAGE", "VERSION", arguments[0], arguments[1]);
         else if (macro == "AM_INIT_AUTOMAKE" && !name_.empty())
             add_package("PACKAGE", "VERSION", short_name(name_), version_);
+    }
+
+    void init(const std::string& name, const std::string& version) {
+        name_ = name;
+        version_ = version;
+        add_package("PACKAGE_NAME", "PACKAGE_VERSION", name, version);
     }
 
     void add(const std::string& name, const std::string& value) {
@@ -115,8 +148,8 @@ class Reader {
 
     void add_package(const char* name_macro, const char* version_macro, const std::string& name,
                      const std::string& version) {
-        if (is_plain(name)) add(name_macro, '"' + name + '"');
-        if (is_plain(version)) add(version_macro, '"' + version + '"');
+        for (const auto& [macro, value] : {std::pair(name_macro, name), std::pair(version_macro, version)})
+            if (value.find('"') == std::string::npos) add(macro, '"' + value + '"');
     }
 
     static std::string short_name(std::string name) {
@@ -129,6 +162,7 @@ class Reader {
     Words definitions_;
     std::string name_, version_;
     int conditions_ = 0; // of the shell around the place
+    bool after_operator_ = false;
 };
 
 } // namespace

@@ -25,7 +25,7 @@ std::vector<SourceList> read_source_lists(const std::filesystem::path& folder);
 std::vector<std::filesystem::path> read_include_dirs(const std::filesystem::path& folder);
 
 /// Returns the definitions, NAME or NAME=VALUE, that the CMakeLists.txt of the folder and of those above it in the checkout
-/// make; without a CMakeLists.txt, those of the nearest configure.ac.
+/// make. A configure.ac that is nearer than any CMakeLists.txt is read instead.
 std::vector<std::string> read_definitions(const std::filesystem::path& folder);
 
 } // namespace tandem::command

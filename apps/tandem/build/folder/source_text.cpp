@@ -25,8 +25,17 @@ bool is_ignored_folder(const fs::path& folder) {
 
 bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
+// Returns whether the code has `int main(`, with any white space.
 bool names_main(const std::string& code) {
-    return code.find("int main(") != std::string::npos || code.find("int main (") != std::string::npos;
+    constexpr const char* blanks = " \t\r\n";
+    for (auto at = code.find("main"); at != std::string::npos; at = code.find("main", at + 4)) {
+        const auto next = code.find_first_not_of(blanks, at + 4);
+        if (next == std::string::npos || code[next] != '(' || at < 4) continue;
+        const auto last = code.find_last_not_of(blanks, at - 1);
+        if (last == at - 1 || last == std::string::npos || last < 2) continue;
+        if (code.compare(last - 2, 3, "int") == 0 && (last == 2 || !is_word(code[last - 3]))) return true;
+    }
+    return false;
 }
 
 // Returns the preprocessor directive in the line, without # and the blanks after it; "" for other lines.
@@ -42,6 +51,7 @@ std::string directive_of(const std::string& line) {
 bool contains_main(const std::string& code) {
     if (!names_main(code)) return false;
     std::vector<bool> optional; // the branches around the line
+    std::string compiled;       // the lines that are compiled in any case
     std::istringstream lines(code);
     for (std::string line; std::getline(lines, line);) {
         const auto directive = directive_of(line);
@@ -52,11 +62,11 @@ bool contains_main(const std::string& code) {
             optional.pop_back();
         } else if (directive.starts_with("el") && !optional.empty()) {
             optional.back() = false;
-        } else if (names_main(line) && std::find(optional.begin(), optional.end(), true) == optional.end()) {
-            return true;
+        } else if (std::find(optional.begin(), optional.end(), true) == optional.end()) {
+            compiled += line + '\n';
         }
     }
-    return false;
+    return names_main(compiled);
 }
 
 } // namespace

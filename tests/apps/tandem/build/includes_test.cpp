@@ -56,7 +56,7 @@ TEST_CASE("a neighbour of a header may be the IDL file that it is made from") {
 TEST_CASE("an implementation of services that an IDL file does not have is the header of its data types") {
     const Folder folder;
     folder.write("Arm/idl/Path.idl", "// interface\nstruct Path { sequence<double> node; };\n");
-    folder.write("Arm/idl/Grip.idl", "interface Grip {};\n");
+    folder.write("Arm/idl/Grip.idl", "module Hand{interface Grip {};};\n");
     folder.write("Arm/test/Test.cpp", "#include \"BasicDataTypeSVC_impl.h\"\n#include \"PathSVC_impl.h\"\n"
                                       "#include \"GripSVC_impl.h\"\n#include \"NowhereSVC_impl.h\"\n");
     const auto test = folder.path() / "Arm/test";

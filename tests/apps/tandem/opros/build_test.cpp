@@ -272,6 +272,8 @@ TEST_CASE("copies of a profile are one profile, and different profiles are named
 TEST_CASE("a component of a project with only a program is built without the program's main()") {
     const Folder folder;
     old_component(folder, "\n/* [\nint main() { return 0; }*/\n"); // in a comment: no program
+    folder.write("Old/demo.cpp", "//*** starts no comment of several lines\nint not_in_the_plugin();\n"
+                                 "int main() { return not_in_the_plugin(); }\n");
     const auto component = folder.path() / "Old";
     folder.write("Old/main.cpp", "int not_in_the_plugin();\nint main() { return not_in_the_plugin(); }\n");
     folder.write("Old/CMakeLists.txt", "cmake_minimum_required(VERSION 3.10)\nproject(Old CXX)\n"

@@ -59,6 +59,21 @@ TEST_CASE("an incomplete copy of a library in the checkout is no remedy where De
                         "miniupnpc/miniupnpc.h replaces the one of this repository"));
 }
 
+TEST_CASE(
+    "an installed library with a function that the linker misses is linked, and its headers come first") {
+    if (!fs::exists("/usr/include/opencv4/opencv2/core/utility.hpp")) return;
+    const Folder folder;
+    old_component(folder, "");
+    folder.write("neighbour/Gain.h", "namespace cv { long getTickCount(); }\n"
+                                     "inline double gain() { return cv::getTickCount(); }\n");
+    const auto built = build({folder.path() / "Old", "-I", folder.path() / "neighbour"});
+    INFO(built.output << built.errors);
+    CHECK(built.exit_code == 0);
+    CHECK_THAT(built.errors,
+               Catch::Contains("tandem: cv::getTickCount() is undefined; using opencv4 of package "
+                               "libopencv-dev\n"));
+}
+
 // As the makefiles of OPRoS's generator, which list only the component's own source.
 TEST_CASE(
     "a source that no makefile lists is compiled if it defines what is missing, once of several copies") {
