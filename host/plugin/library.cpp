@@ -45,14 +45,15 @@ Library::Library(const fs::path& file, UndefinedFunctions undefined)
     boost::dll::fs::error_code refused;
     load_library(*library_, path_, boost::dll::load_mode::rtld_now, refused);
     if (!refused) return;
-    const std::string reason = dlerror_text();
+    std::string reason = dlerror_text();
     if (undefined == UndefinedFunctions::accept && reason.find("undefined symbol: ") != std::string::npos) {
         refused.clear();
         load_library(*library_, path_, boost::dll::load_mode::rtld_lazy, refused);
-        undefined_ = reason;
+        if (refused) reason = dlerror_text(); // another symbol is missing, which is needed at once
     }
     if (refused)
         throw Error(Reason::load_failed, "library " + path_.string() + " cannot be loaded: " + reason);
+    undefined_ = reason;
 }
 
 Library::~Library() = default;

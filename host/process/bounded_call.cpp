@@ -54,14 +54,15 @@ std::optional<std::size_t> wait_for(const std::future<void>& end, const BoundedC
     for (std::size_t i = 1; i < series.count; ++i) shortest = std::min(shortest, series.timeout(i));
     for (;;) {
         std::unique_lock lock(progress.mutex);
-        const std::size_t current = std::min(progress.current, series.count - 1);
+        const std::size_t current = progress.current;
+        if (current == series.count) return std::nullopt;
         if (std::exchange(watched, current) != current) {
             timeout = series.timeout(current);
             report = series.on_slow ? first_report : timeout;
         }
         const auto began = progress.began;
         const auto took = std::chrono::steady_clock::now() - began;
-        progress.is_abandoned = took >= timeout && progress.current < series.count;
+        progress.is_abandoned = took >= timeout;
         if (progress.is_abandoned) return current;
         lock.unlock();
         if (took >= report && report < timeout) {

@@ -4,6 +4,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace tandem::text {
 
@@ -11,8 +12,9 @@ namespace tandem::text {
 template <class Items, class TextOf = std::identity>
 std::string join(const Items& items, std::string_view separator, TextOf text_of = {}) {
     std::string joined;
+    bool is_first = true;
     for (const auto& item : items) {
-        if (!joined.empty()) joined += separator;
+        if (!std::exchange(is_first, false)) joined += separator;
         joined += std::invoke(text_of, item);
     }
     return joined;

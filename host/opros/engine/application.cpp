@@ -41,6 +41,20 @@ std::vector<ComponentHost*> pointers(const std::vector<std::unique_ptr<Component
     return all;
 }
 
+/// Returns the executor of each component: NULL if it has none, or shares that of a component before it.
+std::vector<Executor*> executors_to_end(const std::vector<ComponentHost*>& components,
+                                        const std::vector<std::unique_ptr<Executor>>& executors) {
+    std::vector<Executor*> found;
+    for (const ComponentHost* component : components) {
+        const auto its = std::find_if(executors.begin(), executors.end(),
+                                      [&](const auto& each) { return each->runs(*component); });
+        Executor* const executor = its == executors.end() ? nullptr : its->get();
+        const bool is_first = std::find(found.begin(), found.end(), executor) == found.end();
+        found.push_back(is_first ? executor : nullptr);
+    }
+    return found;
+}
+
 } // namespace
 
 Application::Application(const ApplicationOptions& options) : options_(options) {
@@ -235,11 +249,17 @@ void Application::end_bounded(std::shared_ptr<Helper>& helper) {
 // The component is stuck only if it does not return soon after that. A second grace time would be longer than the time
 // that a supervisor waits for this host.
 void Application::stop_components(const std::vector<ComponentHost*>& components) {
-    std::vector<ComponentHost*>
-        calls; // for each component the end of its cycles, which has a limit already, and onStop
+    // For each component the end of its cycles, which has a limit already, and onStop.
+    std::vector<ComponentHost*> calls;
     for (ComponentHost* component : components) calls.insert(calls.end(), 2, component);
     auto series = bounded_series(calls);
-    series.work = [this, calls](std::size_t i) { i % 2 == 0 ? end_cycles(*calls[i]) : calls[i]->stop(); };
+    const auto executors = executors_to_end(components, executors_);
+    series.work = [calls, executors, grace = options_.grace](std::size_t i) {
+        if (i % 2 != 0)
+            calls[i]->stop();
+        else if (Executor* const executor = executors[i / 2])
+            static_cast<void>(executor->stop_within(grace));
+    };
     series.timeout = [this](std::size_t i) { return i % 2 == 0 ? 2 * options_.grace : options_.grace; };
     process::BoundedCall::run_series(series);
     const auto deadline = std::chrono::steady_clock::now() + std::min(options_.grace, time_after_stop);
@@ -249,13 +269,10 @@ void Application::stop_components(const std::vector<ComponentHost*>& components)
             if (each->current_callback()) mark_stuck(*each);
         static_cast<void>(executor.release()); // leaked: its thread uses it as long as the process lives
     }
+    // A call of the series that was left behind may still use its executor.
+    if (!stuck_components_.empty())
+        for (auto& executor : executors_) static_cast<void>(executor.release());
     executors_.clear();
-}
-
-void Application::end_cycles(const ComponentHost& component) {
-    const auto executor = std::find_if(executors_.begin(), executors_.end(),
-                                       [&](const auto& each) { return each->runs(component); });
-    if (executor != executors_.end()) static_cast<void>((*executor)->stop_within(options_.grace));
 }
 
 /// Returns a series with a call for each component, without its work. It continues without a component after the grace time.

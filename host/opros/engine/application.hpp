@@ -103,7 +103,6 @@ class Application {
     template <class Helper>
     void end_bounded(std::shared_ptr<Helper>& helper);
     void stop_components(const std::vector<ComponentHost*>& components);
-    void end_cycles(const ComponentHost& component);
     void stop_task_queues();
     void unload_libraries();
     process::BoundedCall::Series bounded_series(const std::vector<ComponentHost*>& components);

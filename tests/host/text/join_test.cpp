@@ -10,6 +10,7 @@ TEST_CASE("texts of items are joined with the separator only between them") {
     CHECK(join(std::vector<std::string>{}, ", ").empty());
     CHECK(join(std::vector<std::string>{"Arm"}, ", ") == "Arm");
     CHECK(join(std::vector<std::string>{"Arm", "Leg", "Head"}, ", ") == "Arm, Leg, Head");
+    CHECK(join(std::vector<std::string>{"", "Leg", ""}, ",") == ",Leg,"); // as many items as before
     struct Named {
         std::string name;
     };

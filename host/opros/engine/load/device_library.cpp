@@ -39,8 +39,9 @@ std::string simulated_device(std::string component, const std::vector<fs::path>&
 /// profile to its aliases.
 std::string missing_library(PropertyInterface& component, const ComponentProfile& profile) {
     std::string missing;
+    std::error_code ignored; // a path that cannot be examined is missing
     for (const auto& [name, value] : component.getPropertyMap()) {
-        if (value.empty() || !is_device_library_property(name) || fs::exists(value)) continue;
+        if (value.empty() || !is_device_library_property(name) || fs::exists(value, ignored)) continue;
         const auto is_it = [&known = name](const auto& property) { return property.first == known; };
         if (std::any_of(profile.properties.begin(), profile.properties.end(), is_it)) return name;
         missing = name;

@@ -58,11 +58,12 @@ bool ConfigAdmin::unbindParameter(const char* param_name) {
 void ConfigAdmin::update() {
     if (!m_mustUpdate.load(std::memory_order_acquire)) return;
     Lock lock(m_mutex);
-    m_mustUpdate = false;
     m_changedParam.clear();
-    if (!m_changed || !m_active) return;
-    update(m_activeId.c_str());
-    m_changed = false;
+    if (m_changed && m_active) {
+        update(m_activeId.c_str()); // if a listener throws, the next call tries again
+        m_changed = false;
+    }
+    m_mustUpdate = !m_changedParam.empty(); // the next call clears the list
 }
 
 void ConfigAdmin::update(const char* config_set) {
@@ -104,7 +105,7 @@ void ConfigAdmin::apply(const char* config_set, const char* only_param) {
             m_configsets.getNode(config_set).setProperty(param->name, used);
         }
         m_changedParam.push_back(param->name);
-        m_mustUpdate = true; // the next update() clears the list
+        m_mustUpdate = true;
         m_paramListeners.forEach([&](auto& listener) { listener(config_set, param->name.c_str()); });
     }
 }

@@ -114,7 +114,7 @@ ReturnCode_t ExecutionContextBase::stop() {
     std::unique_lock<std::recursive_timed_mutex> transition(m_startStopMutex, std::defer_lock);
     if (!isInsideCycle() && !transition.try_lock_for(2 * host_options().stop_timeout)) return RTC_ERROR;
     if (!setRunning(false)) return PRECONDITION_NOT_MET;
-    { std::lock_guard<std::mutex> lock(m_cycleDoneMutex); } // as in invokeWorker(): no waiter misses it
+    { std::lock_guard<std::mutex> lock(m_cycleDoneMutex); } // as in runCycle(): no waiter misses it
     m_cycleDone.notify_all();
     const ReturnCode_t result = onStopping();
     if (result == RTC_OK) forEach(&RTC_impl::RTObjectStateMachine::shutdown);

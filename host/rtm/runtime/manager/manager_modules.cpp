@@ -52,8 +52,7 @@ std::string find_init_symbol(const std::filesystem::path& file,
 void warn_of_undefined(const tandem::plugin::Library& library, Logger& rtclog) {
     if (!library.undefined().empty())
         RTC_WARN(("module %s; the module is loaded, but a call of this function will end the host: add the "
-                  "library or source "
-                  "that defines it to the module's build",
+                  "library or source that defines it to the module's build",
                   library.undefined().c_str()));
 }
 

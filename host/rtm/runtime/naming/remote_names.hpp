@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds components and managers of other processes by name. rtcname://HOST:PORT/CONTEXT/NAME asks a name server,
 // rtcloc://HOST:PORT/INSTANCE asks a manager, rtcloc://unix:PID/INSTANCE asks a manager of this user on this machine, and
-// rtcloc://unix:self/INSTANCE that of this process. OpenRTM-aist: NamingManager::string_to_component(), NamingOnCorba and NamingOnManager. Programs in apps/
-// include this header.
+// rtcloc://unix:self/INSTANCE that of this process. OpenRTM-aist: NamingManager::string_to_component(), NamingOnCorba and
+// NamingOnManager. Programs in apps/ include this header.
 #pragma once
 #include "host/rtm/runtime/naming/component_creation.hpp"
 #include <omniORB4/Naming.hh>
@@ -63,7 +63,8 @@ CosNaming::NamingContext_ptr resolve_name_server(CORBA::ORB_ptr orb, const std::
 /// Returns the address of the manager in process `pid` of this user on this machine, `unix:PID`.
 std::string local_manager_address(pid_t pid);
 
-/// The manager at `HOST` or `HOST:PORT` (2810), which is the object corbaloc:iiop:HOST:PORT/manager, at `unix:PID`, or at `unix:self`.
+/// The manager at `HOST` or `HOST:PORT` (2810), which is the object corbaloc:iiop:HOST:PORT/manager, at `unix:PID`, or at
+/// `unix:self`.
 RTM::Manager_ptr resolve_manager(CORBA::ORB_ptr orb, const std::string& address,
                                  unsigned long milliseconds = 2000);
 

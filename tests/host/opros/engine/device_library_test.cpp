@@ -55,6 +55,8 @@ TEST_CASE("a component that cannot initialize says which device library or prope
           "component S: onInitialize failed, it returned code 0x10000001 (OPROS_FIND_DLL_ERROR); device "
           "library "
           "'nowhere' of property ApiName does not exist; for a simulated device, set it to SensingApi");
+    CHECK_THAT(failure("<property name=\"ApiName\">" + std::string(300, 'x') + "</property>"),
+               Catch::Contains("returned code 0x10000001 (OPROS_FIND_DLL_ERROR); device library 'xxx"));
     CHECK(failure("<property name=\"Scale\">4.5</property>") ==
           "component S: onInitialize failed, it returned code 0x10000003 (OPROS_FIND_PROPERTY_ERROR); it "
           "asks for property ApiName, which SensingComp.xml lacks; for a simulated device, set it to "

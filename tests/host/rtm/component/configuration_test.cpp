@@ -4,6 +4,7 @@
 #include "tests/host/rtm/manager_fixture.hpp"
 #include <filesystem>
 #include <fstream>
+#include <stdexcept>
 
 using namespace testing;
 
@@ -358,6 +359,26 @@ TEST_CASE("Listeners are called for sets that are added, set, activated and remo
     CHECK(configuration->activate_configuration_set("default"));
     CHECK(configuration->remove_configuration_set("fresh"));
     CHECK(calls == "activated(default) removed(fresh) ");
+}
+
+TEST_CASE("An update that a listener ends with an exception is repeated") {
+    struct Thrower : RTC::ConfigurationSetNameListener {
+        void operator()(const char*) override {
+            if (++calls == 1) throw std::runtime_error("not now");
+        }
+        int calls = 0;
+    } listener;
+    coil::Properties sets;
+    RTC::ConfigAdmin admin(sets);
+    int step = 0;
+    admin.bindParameter("step", step, "1");
+    admin.update();
+    admin.addConfigurationSetNameListener(RTC::ON_UPDATE_CONFIG_SET, &listener, false);
+    CHECK(admin.activateConfigurationSet("default"));
+    CHECK_THROWS_WITH(admin.update(), "not now");
+    admin.update();
+    admin.update();
+    CHECK(listener.calls == 2);
 }
 
 namespace {
