@@ -154,6 +154,12 @@ Control::Control(boost::asio::io_context& context, std::function<const State&()>
     if (!systems.empty()) systems_.emplace(systems, program_);
 }
 
+Control::~Control() {
+    // Asked before any is waited for. ~Systems(), which is next, asks its runs in the same way.
+    if (player_) player_->stop();
+    if (recorder_) recorder_->stop();
+}
+
 bool Control::is_token(std::string_view text) const {
     unsigned char different = text.size() == token_.size() ? 0 : 1;
     for (std::size_t i = 0; i < token_.size(); ++i)
