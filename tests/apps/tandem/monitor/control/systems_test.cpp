@@ -100,6 +100,24 @@ TEST_CASE("the folders of systems and of built components are listed") {
           json{{{"name", "PartComp"}, {"model", "OPRoS"}}, {{"name", "PartRtc"}, {"model", "RTM"}}});
 }
 
+TEST_CASE(
+    "tandem system new writes nothing if two components would have one name, or the folder's is no link's") {
+    const SystemsFolder folder;
+    const fs::path part = fs::path(TANDEM_PARTS) / "PartComp";
+    for (const char* name : {"one", "two"}) fs::copy(part, folder.path / name, fs::copy_options::recursive);
+    const auto create = [&](const char* name) {
+        return tandem::test::tandem_program({"system", "new", (folder.path / name).string(),
+                                             (folder.path / "one").string(), (folder.path / "two").string()});
+    };
+    const auto same = create("robot");
+    CHECK(same.exit_code == 1);
+    CHECK_THAT(same.errors, Catch::Contains("would both be components with the name PartComp"));
+    CHECK(create("robot.1").errors ==
+          "tandem: 'robot.1' is not the name of a link: expected at most 60 letters, digits, - and _\n");
+    CHECK(!fs::exists(folder.path / "robot"));
+    CHECK(!fs::exists(folder.path / "robot.1"));
+}
+
 TEST_CASE("the end of a run that fails is in the state, and its log says why") {
     const SystemsFolder folder;
     folder.add("robot", "manager.components.precreate: Nothing\n");
