@@ -15,8 +15,8 @@ ImportFolder::ImportFolder(const fs::path& output, const fs::path& imported, con
       path_(fs::absolute(output_ / side).lexically_normal()) {
     std::error_code error;
     if (fs::exists(path_) && !(fs::is_directory(path_) && fs::is_empty(path_, error)))
-        throw std::runtime_error(
-            path_.string() + " exists and is not empty; remove it, or name another folder with --output DIR");
+        throw std::runtime_error(path_.string() +
+                                 " exists and is not empty; remove it, or name another folder");
     made_output_ = !fs::exists(output_);
     if (!fs::create_directories(path_, error) && error)
         throw std::runtime_error("folder " + path_.string() + " cannot be created: " + error.message());
@@ -31,8 +31,8 @@ ImportFolder::~ImportFolder() {
 void require_link_name(const std::string& name) {
     const auto allowed = [](unsigned char c) { return std::isalnum(c) || c == '-' || c == '_'; };
     if (name.size() > 60 || !std::all_of(name.begin(), name.end(), allowed))
-        throw std::runtime_error("--link " + name +
-                                 ": expected a link name of at most 60 letters, digits, - and _");
+        throw std::runtime_error("'" + name +
+                                 "' is not the name of a link: expected at most 60 letters, digits, - and _");
 }
 
 } // namespace tandem::command

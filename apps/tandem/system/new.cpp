@@ -81,6 +81,21 @@ void add_component(pugi::xml_node list, const std::string& name, const std::stri
     }
 }
 
+constexpr char adaptor_name[] = "Adaptor";
+
+/// Throws std::runtime_error if two components of the application would have the same name.
+void require_different_names(const std::vector<Part>& parts) {
+    std::map<std::string, fs::path> known{{adaptor_name, "AdaptorComp.xml"}};
+    for (const Part& part : parts) {
+        if (part.opros.name.empty()) continue;
+        for (const auto& name : opros_names(part))
+            if (const auto [other, is_new] = known.try_emplace(name, part.opros.location.file); !is_new)
+                throw std::runtime_error(
+                    fmt::format("{} and {} would both be components with the name {}; rename one of them",
+                                other->second.string(), part.opros.location.file.string(), name));
+    }
+}
+
 std::string application_text(const std::vector<Part>& parts, const std::string& link) {
     pugi::xml_document document;
     auto declaration = document.append_child(pugi::node_declaration);
@@ -98,7 +113,7 @@ std::string application_text(const std::vector<Part>& parts, const std::string& 
         }
     }
     if (shared.empty()) return "";
-    add_component(list, "Adaptor", "AdaptorComp.xml",
+    add_component(list, adaptor_name, "AdaptorComp.xml",
                   {{"link", link}, {"share", fmt::format("{}", fmt::join(shared, ", "))}});
     package.append_child("port_connections");
     std::ostringstream text;
@@ -138,6 +153,7 @@ int system_new(const NewSystemOptions& options) {
     const std::string link = (whole.has_filename() ? whole : whole.parent_path()).filename().string();
     require_link_name(link);
     const auto parts = find_parts(options);
+    require_different_names(parts);
     const std::string application = application_text(parts, link);
     ImportFolder rtm(options.folder, {}, "rtm");
     write_file(rtm.path() / "rtc.conf", rtc_conf_text(parts, link, !application.empty()));

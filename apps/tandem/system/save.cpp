@@ -70,7 +70,9 @@ bool runs_from(const RunningSystem& system, const fs::path& folder) {
         return file.empty() ||
                fs::weakly_canonical(file.parent_path()) == fs::weakly_canonical(folder / side);
     };
-    return is_in(system.rtc_conf, "rtm") && is_in(system.application, "opros");
+    // A host with -f OTHER.conf runs from another file than the one that would be written.
+    const bool has_name = system.rtc_conf.empty() || system.rtc_conf.filename() == "rtc.conf";
+    return has_name && is_in(system.rtc_conf, "rtm") && is_in(system.application, "opros");
 }
 
 } // namespace

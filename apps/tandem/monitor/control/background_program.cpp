@@ -3,6 +3,8 @@
 
 #include <fcntl.h>
 
+#include <algorithm>
+
 namespace tandem::monitor {
 namespace {
 
@@ -25,7 +27,12 @@ std::uint64_t now_ms() {
 BackgroundProgram::BackgroundProgram(const std::vector<std::string>& command, int output)
     : child_(start(command, output)), since_ms_(now_ms()) {}
 
-BackgroundProgram::~BackgroundProgram() { child_.stop(max_end); }
+BackgroundProgram::~BackgroundProgram() {
+    stop();
+    if (!stopped_) return; // has ended by itself
+    const auto left = *stopped_ + max_end - std::chrono::steady_clock::now();
+    child_.wait(std::max(std::chrono::ceil<std::chrono::milliseconds>(left), std::chrono::milliseconds(0)));
+}
 
 void BackgroundProgram::stop() {
     if (look() || stopped_) return;

@@ -28,16 +28,25 @@ namespace {
 
 constexpr std::chrono::milliseconds look_pause{20};
 
-/// Returns the start of a program's output of this size, without control characters and as valid UTF-8.
-std::string text_in(int file, std::size_t size) {
-    std::string text(std::min(Programs::max_output, size), '\0');
-    const auto bytes = pread(file, text.data(), text.size(), 0);
+/// Returns so many bytes of a program's output, without control characters and as valid UTF-8.
+std::string text_in(int file, std::size_t size, std::size_t begin = 0) {
+    std::string text(size, '\0');
+    const auto bytes = pread(file, text.data(), text.size(), static_cast<off_t>(begin));
     text.resize(bytes < 0 ? 0 : static_cast<std::size_t>(bytes));
     return text::printable_text(text);
 }
 
 std::size_t size_of(int file) {
     return static_cast<std::size_t>(std::max<off_t>(lseek(file, 0, SEEK_END), 0));
+}
+
+/// Returns the last lines of a program's output: every state has them.
+std::string last_lines(int file) {
+    constexpr std::size_t most = 2048;
+    const std::size_t size = size_of(file);
+    if (size <= most) return text_in(file, size);
+    std::string text = text_in(file, most, size - most);
+    return text.erase(0, text.find('\n') + 1);
 }
 
 using PlainJson = nlohmann::json;
@@ -131,7 +140,7 @@ void Programs::look() {
         }
         const std::size_t size = size_of(job->output.get());
         const bool cut = size > max_output;
-        const std::string output = text_in(job->output.get(), size) +
+        const std::string output = text_in(job->output.get(), std::min(max_output, size)) +
                                    (late ? "stopped: it took more than 15 s\n" : "") +
                                    (cut ? "\ncut: the output has more than 4 MiB\n" : "");
         const Done done = std::move(job->done);
@@ -154,6 +163,12 @@ Control::Control(boost::asio::io_context& context, std::function<const State&()>
     if (!systems.empty()) systems_.emplace(systems, program_);
 }
 
+Control::~Control() {
+    // Asked before any is waited for. ~Systems(), which is next, asks its runs in the same way.
+    if (player_) player_->stop();
+    if (recorder_) recorder_->stop();
+}
+
 bool Control::is_token(std::string_view text) const {
     unsigned char different = text.size() == token_.size() ? 0 : 1;
     for (std::size_t i = 0; i < token_.size(); ++i)
@@ -172,11 +187,10 @@ nlohmann::ordered_json Control::status() {
                                   {"systems", nullptr}};
     if (player_) {
         const bool running = !player_->look();
-        const int output = player_output_.get();
         status["replay"] = {{"file", replayed_file_},
                             {"running", running},
                             {"since_ms", player_->since_ms()},
-                            {"end", running ? "" : text_in(output, size_of(output))}};
+                            {"end", running ? "" : last_lines(player_output_.get())}};
     }
     if (systems_) status["systems"] = systems_->runs();
     return status;

@@ -56,6 +56,10 @@ class Control {
     /// folder does not exist, or if the system provides no random numbers.
     Control(boost::asio::io_context& context, std::function<const State&()> state,
             const std::string& systems);
+    /// Ends what clients have started, in order.
+    ~Control();
+    Control(const Control&) = delete;
+    Control& operator=(const Control&) = delete;
 
     const std::string& token() const { return token_; }
     /// Compares in constant time.

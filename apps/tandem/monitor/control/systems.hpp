@@ -6,8 +6,8 @@
 
 #include <filesystem>
 #include <map>
-#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tandem::monitor {
@@ -30,22 +30,30 @@ class Systems {
     std::vector<std::string> save_command(const std::string& name, const std::vector<std::string>& hosts,
                                           bool replace) const;
 
-    /// Starts `tandem run` with the log NAME/run.log. Throws std::invalid_argument also if it runs, or if max_runs run.
+    /// Starts `tandem run` with the log NAME/run.log. Throws std::invalid_argument also if it runs, also if another monitor
+    /// has started it, or if max_runs run.
     void start(const std::string& name);
     /// Asks a run to end. Throws std::invalid_argument if it does not run.
     void stop(const std::string& name);
-    /// Returns the runs, also those that have ended: [{"name", "running", "since_ms", "end"}].
+    /// Returns the runs, also those that have ended: [{"name", "running", "since_ms", "end"}]. Keeps their logs bounded.
     nlohmann::json runs();
     /// Returns the last 64 KiB of the log of the newest run; empty if there is none.
     std::string log(const std::string& name) const;
 
   private:
+    struct Run {
+        Run(const std::vector<std::string>& command, int output, process::FileDescriptor&& file)
+            : program(command, output), log(std::move(file)) {}
+        BackgroundProgram program;
+        process::FileDescriptor log; ///< locked; none after the end
+    };
     std::filesystem::path existing(const std::string& name) const;
+    std::filesystem::path writable(const std::string& name) const; ///< exists, or does not exist yet
     std::size_t count_running();
 
     std::filesystem::path folder_;
     std::string program_;
-    std::map<std::string, std::unique_ptr<BackgroundProgram>> runs_;
+    std::map<std::string, Run> runs_;
 };
 
 } // namespace tandem::monitor

@@ -71,7 +71,7 @@ export class Connector {
   finish(port) {
     const from = this.from;
     this.choose(null);
-    if (port && port.id !== from.id) this.dialog.connect([from, port].map((each) => ({name: each.listed ? shortOf(each.listed) : each.name, find: () => this.portOf(each)})));
+    if (from && port && port.id !== from.id) this.dialog.connect([from, port].map((each) => ({name: each.listed ? shortOf(each.listed) : each.name, find: () => this.portOf(each)})));
   }
 
   /** Shows a connection. That of a link is the one of its RTC with the component that stands for the other host. */

@@ -71,7 +71,8 @@ export class Graph {
   /** Shows a state, or the last one again. Returns when it is drawn. */
   async show(state = this.state) {
     this.state = state;
-    const {links, refused_connections: refused, components, ticks, hosts} = state;
+    const {links, refused_connections: refused, components, ticks, hosts} = state, known = new Set(links.map(({name}) => name));
+    for (const name of this.last.keys()) if (!known.has(name)) this.last.delete(name);
     const all = topologyOf(links.map((link) => this.withLastPorts(link)), refused, rowsOf({components, ticks}), this.withLastHosts({links, hosts}));
     const topology = this.newest = foldedTopology(all, this.folds, (component) => this.isFound(component));
     this.parent.hidden = topology.hosts.length === 0;

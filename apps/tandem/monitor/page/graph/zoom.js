@@ -112,11 +112,12 @@ export class Zoom {
     };
     const end = () => {
       removeEventListener('pointermove', move);
+      for (const type of ['pointerup', 'pointercancel']) removeEventListener(type, end);
       scroller.classList.remove('moves');
     };
     scroller.classList.add('moves');
     addEventListener('pointermove', move);
-    for (const type of ['pointerup', 'pointercancel']) addEventListener(type, end, {once: true});
+    for (const type of ['pointerup', 'pointercancel']) addEventListener(type, end);
   }
 
   pinch(event) {

@@ -43,6 +43,8 @@ export class SystemsView {
     const reply = await this.connection.ask({op: 'system', command: 'list'}), found = reply.ok ? jsonIn(reply.text) : null;
     if (found === null) return this.tell(false, reply.text.trim() || 'the folder cannot be read');
     this.names = found.systems;
+    const known = new Set(found.components.map(({name}) => name));
+    this.counts = Object.fromEntries(Object.entries(this.counts).filter(([name]) => known.has(name)));
     this.parts.show(found.components, ({name, model}) => `${name} ${model}`);
     find('system-parts-empty').hidden = found.components.length > 0;
     this.draw();
@@ -69,8 +71,8 @@ export class SystemsView {
     const run = this.runs.find((each) => each.name === name), [, state, start, stop, log] = item.children;
     setText(state, runText(run));
     setClass(state, run && !run.running && run.end !== 'exited with 0' ? 'bad' : 'empty');
-    Object.assign(start, {hidden: Boolean(run?.running)});
-    Object.assign(stop, {hidden: !run?.running});
+    start.hidden = Boolean(run?.running);
+    stop.hidden = !run?.running;
     log.hidden = !run;
   }
 

@@ -92,6 +92,17 @@ test("the keyboard connects, marks the ports that fit, and undo ends the connect
   assert.deepEqual(page.errors, []);
 });
 
+test("Esc ends a drag, and what is released then connects nothing", async () => {
+  await port("JoystickComp0", "reference").locator("circle").hover();
+  await page.mouse.down();
+  await port("ControlComp0", "reference").locator("circle").hover();
+  await page.keyboard.press("Escape");
+  await page.mouse.up();
+  assert.equal(await page.locator("#graph .rubber").count(), 0);
+  assert.equal(await page.locator("#connection-dialog").isVisible(), false);
+  assert.deepEqual(page.errors, []);
+});
+
 test("a change that a host refuses is told in the form", async () => {
   const host = page.locator("#connection-dialog .system-answer");
   await port("JoystickComp0", "reference").press("c");

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sys/stat.h>
 
 using namespace tandem::monitor::test;
 using namespace tandem::shm::test;
@@ -81,6 +82,8 @@ TEST_CASE("no name leads out of the folder of systems") {
         }
     CHECK(ask(monitor, {{"command", "save"}, {"name", "../new"}, {"hosts", json::array()}})["ok"] == false);
     CHECK(ask(monitor, {{"command", "new"}, {"name", "x"}, {"components", {"../a"}}})["ok"] == false);
+    CHECK(ask(monitor, {{"command", "save"}, {"name", "linked"}, {"hosts", json::array()}})["ok"] == false);
+    CHECK(ask(monitor, {{"command", "new"}, {"name", "linked"}, {"components", {"linked"}}})["ok"] == false);
     CHECK(state(monitor)["control"]["systems"].empty());
     CHECK(!fs::exists(other.path / "outside/run.log"));
 }
@@ -97,6 +100,24 @@ TEST_CASE("the folders of systems and of built components are listed") {
           json{{{"name", "PartComp"}, {"model", "OPRoS"}}, {{"name", "PartRtc"}, {"model", "RTM"}}});
 }
 
+TEST_CASE(
+    "tandem system new writes nothing if two components would have one name, or the folder's is no link's") {
+    const SystemsFolder folder;
+    const fs::path part = fs::path(TANDEM_PARTS) / "PartComp";
+    for (const char* name : {"one", "two"}) fs::copy(part, folder.path / name, fs::copy_options::recursive);
+    const auto create = [&](const char* name) {
+        return tandem::test::tandem_program({"system", "new", (folder.path / name).string(),
+                                             (folder.path / "one").string(), (folder.path / "two").string()});
+    };
+    const auto same = create("robot");
+    CHECK(same.exit_code == 1);
+    CHECK_THAT(same.errors, Catch::Contains("would both be components with the name PartComp"));
+    CHECK(create("robot.1").errors ==
+          "tandem: 'robot.1' is not the name of a link: expected at most 60 letters, digits, - and _\n");
+    CHECK(!fs::exists(folder.path / "robot"));
+    CHECK(!fs::exists(folder.path / "robot.1"));
+}
+
 TEST_CASE("the end of a run that fails is in the state, and its log says why") {
     const SystemsFolder folder;
     folder.add("robot", "manager.components.precreate: Nothing\n");
@@ -106,6 +127,58 @@ TEST_CASE("the end of a run that fails is in the state, and its log says why") {
     CHECK(run_of(monitor)["running"] == false);
     CHECK_THAT(ask(monitor, {{"command", "log"}, {"name", "robot"}})["text"].get<std::string>(),
                Catch::Contains("Nothing"));
+}
+
+TEST_CASE("a log that is a pipe or a link holds nothing up and is not written") {
+    const SystemsFolder folder;
+    folder.add("robot");
+    const fs::path log = folder.path / "robot/run.log";
+    const RunningMonitor monitor("no-link", folder.options());
+    REQUIRE(mkfifo(log.c_str(), 0600) == 0);
+    CHECK(ask(monitor, {{"command", "start"}, {"name", "robot"}})["ok"] == false);
+    CHECK(ask(monitor, {{"command", "log"}, {"name", "robot"}})["text"] == "");
+    fs::remove(log);
+    std::ofstream(folder.path / "other") << "kept";
+    fs::create_symlink(folder.path / "other", log);
+    CHECK(ask(monitor, {{"command", "start"}, {"name", "robot"}})["ok"] == false);
+    CHECK(fs::file_size(folder.path / "other") == 4);
+}
+
+TEST_CASE("the log of a run stays bounded, and only this user reads it") {
+    const SystemsFolder folder;
+    folder.add("robot");
+    const fs::path log = folder.path / "robot/run.log";
+    const RunningMonitor monitor("no-link", folder.options());
+    REQUIRE(ask(monitor, {{"command", "start"}, {"name", "robot"}})["ok"] == true);
+    CHECK((fs::status(log).permissions() & fs::perms::all) ==
+          (fs::perms::owner_read | fs::perms::owner_write));
+    std::ofstream(log, std::ios::app) << std::string((16 << 20) + 1, 'x') << "\nthe end\n";
+    CHECK(eventually([&] { return fs::file_size(log) < 1 << 20; }));
+    const auto text = ask(monitor, {{"command", "log"}, {"name", "robot"}})["text"].get<std::string>();
+    CHECK_THAT(text, Catch::StartsWith("(older lines are removed") && Catch::Contains("the end\n"));
+}
+
+TEST_CASE("a run that outlives its monitor is not started twice") {
+    const SystemsFolder folder;
+    folder.add("robot");
+    const auto log = [&] {
+        std::ifstream file(folder.path / "robot/run.log");
+        return std::string(std::istreambuf_iterator<char>(file), {});
+    };
+    {
+        RunningMonitor killed("no-link", folder.options());
+        REQUIRE(ask(killed, {{"command", "start"}, {"name", "robot"}})["ok"] == true);
+        REQUIRE(eventually([&] { return log().find("ready") != std::string::npos; }));
+        kill(killed.pid(), SIGKILL);
+        REQUIRE(eventually([&] { return !killed.runs(); }));
+    }
+    const RunningMonitor monitor("no-link", folder.options());
+    const std::string before = log(), mark = "started, pid ";
+    const auto start = [&] { return ask(monitor, {{"command", "start"}, {"name", "robot"}}); };
+    CHECK_THAT(start()["text"].get<std::string>(), Catch::Contains("started by another monitor"));
+    CHECK(log() == before);
+    kill(std::stoi(before.substr(before.find(mark) + mark.size())), SIGKILL); // the host: its tandem run ends
+    CHECK(eventually([&] { return start()["ok"] == true; }));
 }
 
 TEST_CASE("a system runs once at a time, is stopped in order, and ends with the monitor") {
