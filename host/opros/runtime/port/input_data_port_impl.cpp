@@ -150,11 +150,8 @@ inline opros_any* InputDataPortImpl::pop_from_ring() {
 inline opros_any& InputDataPortImpl::last_in_ring() {
     const tandem::rt::ShortMessage* const message = ring_->short_message();
     if (message == nullptr) return ring_->last();
-    // A consumer may have given back an object with a value of another type.
-    if (decoded_.empty() || &decoded_.held()->rtti() != short_type_) [[unlikely]] {
+    if (decoded_.empty()) [[unlikely]]
         decoded_ = port_.sample();
-        short_type_ = &decoded_.held()->rtti();
-    }
     opros_any::holder_base& held = *decoded_.held();
     const std::size_t count = message->bytes >> std::countr_zero(held.elementBytes()); // 1, 2, 4 or 8
     message->copy_to(held.resize(count).begin);

@@ -100,7 +100,6 @@ class InputDataPortImpl {
     std::vector<DataPortSource*> sources_;
     std::set<DataPortSource*> polled_sources_; // those that do not notify the listener
     opros_any decoded_; // values are decoded here first: a broken one must not damage the queue
-    const std::type_info* short_type_ = nullptr; // of decoded_ when it last got a short message
     opros::ValuePool pool_;
     unsigned empty_pops_ = 0; // pops that found the ring or the sources empty
     bool queue_is_default_ = false;

@@ -11,7 +11,6 @@
 #include <atomic>
 #include <catch2/catch.hpp>
 #include <memory>
-#include <string>
 #include <thread>
 #include <vector>
 
@@ -149,24 +148,6 @@ TEST_CASE("a push to several readers copies the value once for each, and reading
     CHECK(Counted::copies == readers);
     for (auto& port : ports) delete port->pop();
     CHECK(Counted::copies == readers);
-}
-
-TEST_CASE("vectors of any length arrive, also after a reader has put something else into a value") {
-    InputDataPort<Values> port("in", OPROS_FIFO, 20);
-    std::vector<Values> sent;
-    for (const std::size_t length : {0U, 1U, 6U, 7U, 6U, 100U, 0U}) { // up to 6 are a short message
-        sent.emplace_back(length, 1.0 + static_cast<double>(sent.size()));
-        port.push(sent.back());
-    }
-    CHECK(drain(port) == sent);
-    for (int i = 0; i < 10; ++i) {
-        Values value{static_cast<double>(i), 2};
-        port.push(value);
-        const std::unique_ptr<opros_any> any(port.pop());
-        REQUIRE(any);
-        CHECK(port.getContent(*any) == value);
-        *any = i % 2 == 0 ? opros_any(std::string("read")) : opros_any(std::vector<char>(1));
-    }
 }
 
 TEST_CASE("a peeked value of a FIFO stays the next one until it is too old") {
