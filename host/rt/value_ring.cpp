@@ -108,9 +108,9 @@ void CellRing::untake() {
     if (last) shorts_[last_short_] = *last;
 }
 
-std::optional<ShortMessage> CellRing::short_in(const Cell& cell, bool unread) {
+std::optional<ShortMessage> CellRing::short_in(const Cell& cell, bool must_be_unread) {
     const std::uint64_t word = cell.word.load();
-    if ((word & short_bit) == 0 || is_unread(word) != unread) return std::nullopt;
+    if ((word & short_bit) == 0 || (must_be_unread && !is_unread(word))) return std::nullopt;
     ShortMessage message;
     copy_short(cell, message);
     return message;
@@ -120,7 +120,6 @@ std::optional<ShortMessage> CellRing::writers_short(long offset) const {
     return offset < 0 ? short_in(cells_[cell_at(writer_, offset)], true) : std::nullopt;
 }
 
-// If the ring is full, the cell before the reader's has the newest message, not the one that was taken last.
 std::optional<ShortMessage> CellRing::readers_short(long offset) {
     catch_up();
     return short_in(cells_[cell_at(reader_, offset)], offset >= 0);

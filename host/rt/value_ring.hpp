@@ -207,7 +207,7 @@ class CellRing {
         for (std::size_t i = 0; i < to.words.size(); ++i)
             to.words[i] = from.rest[i].load(std::memory_order_relaxed);
     }
-    static std::optional<ShortMessage> short_in(const Cell& cell, bool unread);
+    static std::optional<ShortMessage> short_in(const Cell& cell, bool must_be_unread);
     /// `word`: the unread word of the reader's cell.
     bool try_take(std::uint64_t word) {
         Cell& cell = cells_[reader_.cell];

@@ -215,16 +215,6 @@ TEST_CASE("short messages of a value ring are found by offset, and both ends can
     CHECK_FALSE(ring.readers_short(0)); // was read
 }
 
-TEST_CASE("a message before the reader is not the newest one of a full value ring") {
-    Ring ring(2);
-    put(ring, 1);
-    CHECK(take_either(ring) == 1);
-    CHECK(put_short(ring, 2));
-    CHECK(put_short(ring, 3));
-    CHECK_FALSE(ring.readers_short(-1));
-    CHECK(ring.at(ring.readers(-1)).at(0) == 1);
-}
-
 // A short message that finds no room is followed by a value, which drops the oldest message.
 TEST_CASE("no short message of a value ring is torn, repeated or lost uncounted while both threads run") {
     const std::size_t depth = GENERATE(1U, 2U, 7U);
