@@ -17,7 +17,6 @@
 
 #include <array>
 #include <atomic>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -220,8 +219,8 @@ class CellRing {
             copy_short(cell, shorts_[1 - last_short_]); // the last message stays until this one is taken
         else
             for (std::size_t i = 0; i < std::tuple_size_v<Parts>; ++i)
-                __builtin_prefetch(std::bit_cast<const void*>(cell.rest[i].load(std::memory_order_relaxed)),
-                                   1);
+                __builtin_prefetch(
+                    reinterpret_cast<const void*>(cell.rest[i].load(std::memory_order_relaxed)), 1);
         if (!cell.word.compare_exchange_strong(word, pack(reader_.position, false, reader_.value) | kind,
                                                std::memory_order_acq_rel, std::memory_order_acquire))
             [[unlikely]]
