@@ -19,15 +19,6 @@ std::size_t CellRing::size() const {
     return published > taken ? std::min<std::size_t>(published - taken, cells_.size()) : 0;
 }
 
-std::size_t CellRing::waiting() const {
-    if (empty()) return 0;
-    if (cells_.size() == 1) return 1;
-    std::size_t next = reader_.cell + (has_peeked_ ? 0 : 1);
-    if (next == cells_.size()) next = 0;
-    const bool has_next = is_unread(cells_[next].word.load(std::memory_order_acquire));
-    return has_next ? std::max<std::size_t>(size(), 1) : 1; // a cell is filled before the count
-}
-
 /// Moves the reader to the oldest value, if the writer has dropped the one at its position. Returns false if there is no
 /// value.
 bool CellRing::catch_up() {
@@ -50,7 +41,7 @@ bool CellRing::catch_up() {
 bool CellRing::take_overtaken() {
     constexpr int max_attempts = 64;
     for (int i = 0; i < max_attempts && catch_up(); ++i) {
-        const std::uint64_t word = cells_[reader_.cell].word.load(std::memory_order_acquire);
+        std::uint64_t word = cells_[reader_.cell].word.load(std::memory_order_acquire);
         if (is_unread(word) && try_take(word)) return true;
     }
     return false;
@@ -100,29 +91,9 @@ void CellRing::unpublish() {
 void CellRing::untake() {
     step_back(reader_);
     const std::uint64_t before = cells_[reader_.cell].word.load();
-    cells_[reader_.cell].word = pack(reader_.position, true, reader_.value) | (before & short_bit);
+    cells_[reader_.cell].word = pack(reader_.position, true, reader_.value);
     reader_.value = index(before);
     set_taken(reader_.position);
-    const auto last = readers_short(-1);
-    has_short_ = last.has_value();
-    if (last) shorts_[last_short_] = *last;
-}
-
-std::optional<ShortMessage> CellRing::short_in(const Cell& cell, bool must_be_unread) {
-    const std::uint64_t word = cell.word.load();
-    if ((word & short_bit) == 0 || (must_be_unread && !is_unread(word))) return std::nullopt;
-    ShortMessage message;
-    copy_short(cell, message);
-    return message;
-}
-
-std::optional<ShortMessage> CellRing::writers_short(long offset) const {
-    return offset < 0 ? short_in(cells_[cell_at(writer_, offset)], true) : std::nullopt;
-}
-
-std::optional<ShortMessage> CellRing::readers_short(long offset) {
-    catch_up();
-    return short_in(cells_[cell_at(reader_, offset)], offset >= 0);
 }
 
 } // namespace tandem::rt

@@ -9,55 +9,17 @@
 // drops the oldest value, exchange the word atomically, so that each value is either read or dropped.
 //
 // A value is often a chain of pointers. Beside the word, the cell therefore has the addresses of the value's parts, so
-// that the reader requests all of them at once. A short message, of up to 48 bytes, is in the cell itself: the reader
-// needs no other cache line of the writer, and the value that belongs to the cell is not used. Only a cell that was read
-// gets a short message. A reader may be copying one that is unread, and its exchange of the word says that the copy is
-// whole.
+// that the reader requests all of them at once.
 #pragma once
 
 #include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
-#include <optional>
 #include <tuple>
 #include <vector>
 
 namespace tandem::rt {
-
-/// A message that fits into a cell.
-struct ShortMessage {
-    static constexpr std::size_t max_bytes = 48;
-
-    /// Copies the message to `to`. No loop, which the compiler would replace by a call, of cold code.
-    void copy_to(void* to) const { copy(static_cast<std::byte*>(to), data(), bytes); }
-    /// Copies at most max_bytes from `from`.
-    void assign(const void* from, std::size_t size) {
-        bytes = 0;
-        append(from, size);
-    }
-    /// Adds bytes; all together are at most max_bytes.
-    void append(const void* from, std::size_t size) {
-        copy(reinterpret_cast<std::byte*>(words.data()) + bytes, static_cast<const std::byte*>(from), size);
-        bytes += size;
-    }
-    const std::byte* data() const { return reinterpret_cast<const std::byte*>(words.data()); }
-
-    std::uint64_t bytes; ///< length
-    std::array<std::uint64_t, max_bytes / sizeof(std::uint64_t)> words;
-
-  private:
-    template <std::size_t part = 32>
-    static void copy(std::byte* to, const std::byte* from, std::size_t size) {
-        if (size & part) {
-            std::memcpy(to, from, part);
-            to += part;
-            from += part;
-        }
-        if constexpr (part > 1) copy<part / 2>(to, from, size);
-    }
-};
 
 /// The cells of a ValueRing. [writing thread] and [reading thread] are one thread each at a time.
 class CellRing {
@@ -85,29 +47,16 @@ class CellRing {
         Cell& cell = cells_[writer_.cell];
         const std::uint64_t word = pack(writer_.position, true, writer_.value);
         std::uint64_t before = cell.word.load(std::memory_order_acquire);
-        if (is_unread(before)) [[unlikely]] { // the reader may be copying a short message
-            before = cell.word.exchange(word, std::memory_order_acq_rel);
-        } else { // only this thread changes a cell that was read
-            for (std::size_t i = 0; i < parts.size(); ++i)
-                cell.rest[i].store(reinterpret_cast<std::uintptr_t>(parts[i]), std::memory_order_relaxed);
-            cell.word.store(word, std::memory_order_release);
-        }
-        finish_publishing(before);
-        return is_unread(before);
-    }
-    /// Appends a short message instead of the writer's value. Returns false, without side effects, if the oldest value would
-    /// have to be dropped for it. [writing thread]
-    bool publish(const ShortMessage& message) {
-        Cell& cell = cells_[writer_.cell];
-        const std::uint64_t before = cell.word.load(std::memory_order_acquire);
+        for (std::size_t i = 0; i < parts.size(); ++i)
+            cell.parts[i].store(parts[i], std::memory_order_relaxed);
         if (is_unread(before)) [[unlikely]]
-            return false;
-        cell.rest.back().store(message.bytes, std::memory_order_relaxed);
-        for (std::size_t i = 0; i < message.words.size(); ++i)
-            cell.rest[i].store(message.words[i], std::memory_order_relaxed);
-        cell.word.store(pack(writer_.position, true, writer_.value) | short_bit, std::memory_order_release);
-        finish_publishing(before);
-        return true;
+            before = cell.word.exchange(word, std::memory_order_acq_rel);
+        else // only this thread changes a cell that was read
+            cell.word.store(word, std::memory_order_release);
+        writer_.value = index(before);
+        step(writer_);
+        published_.store(writer_.position, std::memory_order_release);
+        return is_unread(before);
     }
 
     /// Returns whether there is nothing to read. Loads one word, which stays in the cache until the writer stores it.
@@ -115,18 +64,17 @@ class CellRing {
     bool empty() const {
         return !has_peeked_ && !is_unread(cells_[reader_.cell].word.load(std::memory_order_acquire));
     }
-    /// Returns size(), which needs a cache line that the writer changes, only if several values wait. A single one is in a
-    /// cell that the reader loads in any case. [reading thread]
-    std::size_t waiting() const;
     /// Returns the address of the word that empty() loads. [reading thread]
     const void* readers_cell() const { return &cells_[reader_.cell]; }
-    /// Takes the oldest value. It is short_message() or, if this is NULL, the value with the index readers(), until the next
-    /// take() or peek(). Returns false if there is none. [reading thread]
+    /// Takes the oldest value. Its index is readers() until the next take() or peek(). Returns false if there is none.
+    /// [reading thread]
     bool take() {
         if (has_peeked_) [[unlikely]]
             if (take_peeked()) return true;
-        const std::uint64_t word = cells_[reader_.cell].word.load(std::memory_order_acquire);
+        const Cell& cell = cells_[reader_.cell];
+        std::uint64_t word = cell.word.load(std::memory_order_acquire);
         if (!is_unread(word)) return false;
+        for (const auto& part : cell.parts) __builtin_prefetch(part.load(std::memory_order_relaxed), 1);
         if (try_take(word)) [[likely]]
             return true;
         return take_overtaken();
@@ -136,15 +84,10 @@ class CellRing {
     bool peek();
     /// Returns the index of the value that was taken last. [reading thread]
     std::uint32_t readers() const { return reader_.value; }
-    /// Returns the message that was taken last, if it was short. [reading thread]
-    const ShortMessage* short_message() const { return has_short_ ? &shorts_[last_short_] : nullptr; }
 
     /// Return the index of a value relative to the next one to write or to read. [no other thread uses the ring]
     std::uint32_t writers(long offset) const;
     std::uint32_t readers(long offset);
-    /// Return the message at that place if it is short: its value then holds something else. [no other thread uses the ring]
-    std::optional<ShortMessage> writers_short(long offset) const;
-    std::optional<ShortMessage> readers_short(long offset);
     /// Undo the last publish() or take(). [no other thread uses the ring]
     void unpublish();
     void untake();
@@ -159,14 +102,13 @@ class CellRing {
     void prefetch_for_take() const { __builtin_prefetch(&cells_[reader_.cell], 1); }
 
   private:
-    static constexpr unsigned index_bits = 20, position_shift = index_bits + 2;
-    static constexpr std::uint64_t unread_bit = std::uint64_t{1} << index_bits, short_bit = 2 * unread_bit;
+    static constexpr unsigned index_bits = 20, position_shift = index_bits + 1;
+    static constexpr std::uint64_t unread_bit = std::uint64_t{1} << index_bits;
 
-    /// Shares its cache line with no other cell, because the writer fills one while the reader polls the next. With
-    /// short_bit in the word, `rest` is a ShortMessage, its length last. Otherwise it begins with the parts.
+    /// Shares its cache line with no other cell, because the writer fills one while the reader polls the next.
     struct alignas(line) Cell {
         std::atomic<std::uint64_t> word;
-        std::array<std::atomic<std::uint64_t>, line / sizeof(std::uint64_t) - 1> rest;
+        std::array<std::atomic<const void*>, std::tuple_size_v<Parts>> parts;
     };
 
     /// One end. `position` counts values, `cell` is its cell.
@@ -182,9 +124,9 @@ class CellRing {
     static std::uint32_t index(std::uint64_t word) {
         return static_cast<std::uint32_t>(word & (unread_bit - 1));
     }
-    /// Returns how far the position of a word, of which the word has 42 bits, lies behind `position`.
+    /// Returns how far the position of a word, of which the word has 43 bits, lies behind `position`.
     static std::int64_t distance(std::uint64_t word, std::uint64_t position) {
-        return static_cast<std::int64_t>((word & ~(2 * short_bit - 1)) - (position << position_shift)) >>
+        return static_cast<std::int64_t>((word & ~(2 * unread_bit - 1)) - (position << position_shift)) >>
                position_shift;
     }
     void step(End& end) const {
@@ -196,37 +138,14 @@ class CellRing {
         end.cell = (end.cell == 0 ? static_cast<std::uint32_t>(cells_.size()) : end.cell) - 1;
     }
     std::size_t cell_at(const End& end, long offset) const;
-    void finish_publishing(std::uint64_t before) {
-        writer_.value = index(before);
-        step(writer_);
-        published_.store(writer_.position, std::memory_order_release);
-    }
-    static void copy_short(const Cell& from, ShortMessage& to) {
-        to.bytes = from.rest.back().load(std::memory_order_relaxed);
-        for (std::size_t i = 0; i < to.words.size(); ++i)
-            to.words[i] = from.rest[i].load(std::memory_order_relaxed);
-    }
-    static std::optional<ShortMessage> short_in(const Cell& cell, bool must_be_unread);
-    /// `word`: the unread word of the reader's cell.
-    bool try_take(std::uint64_t word) {
-        Cell& cell = cells_[reader_.cell];
+    /// `word`: the unread word of the reader's cell; afterwards the present one.
+    bool try_take(std::uint64_t& word) {
         if (distance(word, reader_.position) != 0) [[unlikely]]
             return false;
-        // A component takes values until there is none.
-        __builtin_prefetch(&cells_[reader_.cell + 1 == cells_.size() ? 0 : reader_.cell + 1]);
-        const std::uint64_t kind = word & short_bit;
-        if (kind != 0)
-            copy_short(cell, shorts_[1 - last_short_]); // the last message stays until this one is taken
-        else
-            for (std::size_t i = 0; i < std::tuple_size_v<Parts>; ++i)
-                __builtin_prefetch(
-                    reinterpret_cast<const void*>(cell.rest[i].load(std::memory_order_relaxed)), 1);
-        if (!cell.word.compare_exchange_strong(word, pack(reader_.position, false, reader_.value) | kind,
-                                               std::memory_order_acq_rel, std::memory_order_acquire))
-            [[unlikely]]
+        if (!cells_[reader_.cell].word.compare_exchange_strong(
+                word, pack(reader_.position, false, reader_.value), std::memory_order_acq_rel,
+                std::memory_order_acquire)) [[unlikely]]
             return false;
-        if (kind != 0) last_short_ = 1 - last_short_;
-        has_short_ = kind != 0;
         reader_.value = index(word);
         step(reader_);
         taken_.store(reader_.position, std::memory_order_relaxed);
@@ -244,9 +163,6 @@ class CellRing {
     alignas(line) End reader_;
     std::atomic<std::uint64_t> taken_; ///< position of the next value to take, a peeked one included
     bool has_peeked_ = false;          ///< the reader's value is still in the queue
-    bool has_short_ = false;           ///< the last message taken is in shorts_
-    unsigned last_short_ = 0;          ///< where
-    std::array<ShortMessage, 2> shorts_;
 };
 
 /// A CellRing with its values.

@@ -5,7 +5,6 @@
 #include "host/rt/rehearsal.hpp"
 
 #include <algorithm>
-#include <bit>
 
 using tandem::rt::rehearsing;
 
@@ -33,7 +32,7 @@ InputDataPortImpl::InputDataPortImpl(InputDataPortInterface& port, DataPortPolic
     choose_way();
 }
 
-void InputDataPortImpl::push(opros_any& value) {
+void InputDataPortImpl::push(const opros_any& value) {
     {
         if (!push_mutex_.lock_unless_rehearsing()) return;
         const tandem::rt::ShortLock lock(push_mutex_, std::adopt_lock);
@@ -48,18 +47,7 @@ void InputDataPortImpl::push(opros_any& value) {
 
 // A new value gets an object that this port's code has created, and the copy is assigned to it. The given object may belong
 // to a library that is unloaded before this port.
-inline void InputDataPortImpl::push_into_ring(opros_any& value) {
-    if (!rehearsing() || pushes_short_) {
-        tandem::rt::ShortMessage message;
-        const bool is_short = shorten(value, message);
-        if (rehearsing()) {
-            tandem::rt::note_crossings(ring_->published());
-            ring_->prefetch_for_publish();
-            return;
-        }
-        pushes_short_ = is_short;
-        if (is_short && ring_->publish(message)) return;
-    }
+inline void InputDataPortImpl::push_into_ring(const opros_any& value) {
     opros_any& next = ring_->next();
     if (next.empty()) [[unlikely]]
         next = port_.sample();
@@ -70,22 +58,6 @@ inline void InputDataPortImpl::push_into_ring(opros_any& value) {
     }
     next = value;
     if (!rehearsing()) ring_->publish(parts_of(next));
-}
-
-/// Returns whether the value is a short vector of numbers, of this port's type: the type of what the consumer gets.
-inline bool InputDataPortImpl::shorten(opros_any& value, tandem::rt::ShortMessage& to) {
-    opros_any::holder_base* const held = value.held();
-    if (held == nullptr || held->elementBytes() == 0) return false;
-    const opros_any::holder_base::Memory elements = held->elements();
-    if (elements.bytes > tandem::rt::ShortMessage::max_bytes) return false;
-    if (vector_type_ == nullptr) [[unlikely]] {
-        opros_any sample = port_.sample();
-        if (sample.held() == nullptr || sample.held()->elementBytes() == 0) return false;
-        vector_type_ = &sample.held()->rtti();
-    }
-    if (held->rtti() != *vector_type_) return false;
-    to.assign(elements.begin, elements.bytes);
-    return true;
 }
 
 void InputDataPortImpl::push_into_queue(const opros_any& value) {
@@ -141,21 +113,9 @@ inline opros_any* InputDataPortImpl::pop_from_ring() {
     if (rehearsing()) {
         tandem::rt::note_crossings(ring_->taken());
         ring_->prefetch_for_take();
-        return pool_.lend(ring_->short_message() ? last_in_ring() : decoded_);
+        return pool_.lend(decoded_);
     }
-    return ring_->take() ? pool_.lend(last_in_ring()) : found_nothing();
-}
-
-/// Returns the value that was taken or looked at last.
-inline opros_any& InputDataPortImpl::last_in_ring() {
-    const tandem::rt::ShortMessage* const message = ring_->short_message();
-    if (message == nullptr) return ring_->last();
-    if (decoded_.empty()) [[unlikely]]
-        decoded_ = port_.sample();
-    opros_any::holder_base& held = *decoded_.held();
-    const std::size_t count = message->bytes >> std::countr_zero(held.elementBytes()); // 1, 2, 4 or 8
-    message->copy_to(held.resize(count).begin);
-    return decoded_;
+    return ring_->take() ? pool_.lend(ring_->last()) : found_nothing();
 }
 
 /// Counts a pop that found no value, and returns NULL.
@@ -183,7 +143,7 @@ opros_any* InputDataPortImpl::pop_from_queue() {
 opros_any* InputDataPortImpl::peek() {
     if (!may_have_values_.load(std::memory_order_acquire)) return nullptr;
     const std::lock_guard lock(mutex_);
-    if (ring_) return ring_->peek() ? new opros_any(last_in_ring()) : nullptr;
+    if (ring_) return ring_->peek() ? new opros_any(ring_->last()) : nullptr;
     poll_sources();
     return queue_.size() == 0 ? nullptr : new opros_any(queue_.front());
 }
@@ -310,7 +270,7 @@ void InputDataPortImpl::move_to_ring() {
 }
 
 void InputDataPortImpl::move_to_queue() {
-    while (ring_->take()) queue_.push().swap(last_in_ring());
+    while (ring_->take()) queue_.push().swap(ring_->last());
     ring_.reset();
 }
 

@@ -30,7 +30,7 @@ class InputDataPortImpl {
     InputDataPortImpl(InputDataPortInterface& port, DataPortPolicy policy, unsigned int limit);
 
     /// Stores a copy, releases the locks and calls the listener. In a rehearsal stores nothing.
-    void push(opros_any& value);
+    void push(const opros_any& value);
     /// Returns the next value, which the consumer deletes, or NULL if there is none. In a rehearsal takes nothing: it
     /// returns the source's last value once more, or NULL.
     opros_any* pop();
@@ -58,8 +58,7 @@ class InputDataPortImpl {
     enum class ReadResult { no_value, undecodable, value };
 
     // Require push_mutex_ to be held.
-    void push_into_ring(opros_any& value);
-    bool shorten(opros_any& value, tandem::rt::ShortMessage& to);
+    void push_into_ring(const opros_any& value);
     void push_into_queue(const opros_any& value);
     // Require both mutexes to be held.
     void choose_way();
@@ -74,7 +73,6 @@ class InputDataPortImpl {
     ReadResult read_one(DataPortSource* const& source);
     opros_any* pop_after(ReadResult result);
     opros_any* pop_from_ring();
-    opros_any& last_in_ring();
     opros_any* pop_from_queue();
     opros_any* found_nothing();
     void rehearse_reading();
@@ -87,11 +85,7 @@ class InputDataPortImpl {
     std::atomic<bool> may_have_values_{false}, has_polled_sources_{false};
     std::atomic<DataPortListener*> listener_{nullptr};
 
-    alignas(line) tandem::rt::ShortMutex
-        push_mutex_; // for the end of ring_ that writes, and the next two members
-    // The type of the port's values if it is a vector of numbers; not known before the first push.
-    const std::type_info* vector_type_ = nullptr;
-    bool pushes_short_ = false; // the last value was a short message
+    alignas(line) tandem::rt::ShortMutex push_mutex_; // for the end of ring_ that writes
 
     alignas(line) tandem::rt::ShortMutex mutex_; // for all that follows, and the other end of ring_
     opros::DataQueue queue_;

@@ -16,14 +16,11 @@ using RTC::BufferStatus;
 
 namespace {
 
-RTC::ByteData message(unsigned char value, unsigned long length) {
+RTC::ByteData message(unsigned char value, unsigned long length = 20) {
     RTC::ByteData bytes;
     bytes.writeData(std::vector<unsigned char>(length, value).data(), length);
     return bytes;
 }
-
-/// A message that fits into a cell of the buffer's ring, or one that does not.
-RTC::ByteData message(unsigned char value) { return message(value, value % 2 == 0 ? 20 : 60); }
 
 int value_of(const RTC::ByteData& bytes) { return bytes.getDataLength() == 0 ? -1 : bytes.getBuffer()[0]; }
 

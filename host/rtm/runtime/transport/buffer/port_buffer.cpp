@@ -13,7 +13,6 @@ namespace RTC {
 
 using tandem::rt::rehearsing;
 using tandem::rt::ShortLock;
-using tandem::rt::ShortMessage;
 using namespace std::chrono_literals;
 
 namespace {
@@ -30,22 +29,9 @@ std::size_t head_bytes(std::uint32_t count, std::size_t element_bytes) {
     return time_bytes + count_bytes + (count > 0 && element_bytes == 8 ? 4 : 0);
 }
 
-/// Returns false if the message is not short.
-bool encode_short_numbers(const TimedNumbers<const void>& numbers, ShortMessage& to) {
-    const std::size_t head = head_bytes(numbers.count, numbers.element_bytes),
-                      bytes = std::size_t{numbers.count} * numbers.element_bytes;
-    if (head + bytes > ShortMessage::max_bytes) return false;
-    const std::uint64_t count = numbers.count; // with the padding
-    to.assign(numbers.tm, time_bytes);
-    to.append(&count, head - time_bytes);
-    to.append(numbers.elements, bytes);
-    return true;
-}
-
 void encode_numbers(const TimedNumbers<const void>& numbers, ByteData& to) {
     const std::size_t head = head_bytes(numbers.count, numbers.element_bytes),
                       bytes = std::size_t{numbers.count} * numbers.element_bytes;
-    to.isLittleEndian(true);
     to.setDataLength(head + bytes);
     unsigned char* const out = to.getBuffer();
     const std::uint64_t count = numbers.count; // with the padding
@@ -54,121 +40,41 @@ void encode_numbers(const TimedNumbers<const void>& numbers, ByteData& to) {
     copyBytes(out + head, numbers.elements, bytes);
 }
 
-bool shorten(const unsigned char* bytes, std::size_t length, ShortMessage& to) {
-    if (length > ShortMessage::max_bytes) return false;
-    to.assign(bytes, length);
-    return true;
-}
-
-/// A message that is already encoded. Only little-endian ones are short.
-class Encoded {
-  public:
-    explicit Encoded(const ByteData& message) : message_(message) {}
-    bool make_short(ShortMessage& to) const {
-        return message_.getEndian() && shorten(message_.getBuffer(), message_.getDataLength(), to);
-    }
-    bool copy_to(ByteData& to) const {
-        to = message_;
+/// Returns false if the value cannot be encoded.
+bool encode(const Marshal& marshal, cdrMemoryStream& stream, ByteData& to) {
+    to.isLittleEndian(true);
+    if (native_little_endian && marshal.numbers().tm != nullptr) {
+        encode_numbers(marshal.numbers(), to);
         return true;
     }
-
-  private:
-    const ByteData& message_;
-};
-
-/// A value, encoded directly into its place or by a stream.
-class Encoding {
-  public:
-    Encoding(const Marshal& marshal, cdrMemoryStream& stream) : marshal_(marshal), stream_(stream) {}
-    /// Call it first. Returns false if the message is not short, or cannot be encoded.
-    bool make_short(ShortMessage& to) {
-        if (is_numbers()) return encode_short_numbers(marshal_.numbers(), to);
-        stream_.rewindPtrs();
-        stream_.setByteSwapFlag(true);
-        is_valid_ = marshal_(stream_);
-        return is_valid_ && shorten(stream_bytes(), stream_.bufSize(), to);
-    }
-    /// Returns false if the value cannot be encoded.
-    bool copy_to(ByteData& to) {
-        if (is_numbers()) {
-            encode_numbers(marshal_.numbers(), to);
-        } else if (is_valid_) {
-            to.isLittleEndian(true);
-            to.writeData(stream_bytes(), stream_.bufSize());
-        }
-        return is_numbers() || is_valid_;
-    }
-
-  private:
-    bool is_numbers() const { return native_little_endian && marshal_.numbers().tm != nullptr; }
-    const unsigned char* stream_bytes() const { return static_cast<const unsigned char*>(stream_.bufPtr()); }
-
-    const Marshal& marshal_;
-    cdrMemoryStream& stream_;
-    bool is_valid_ = false; // what the stream holds
-};
-
-/// The bytes of a message in the buffer.
-struct Bytes {
-    unsigned char* data;
-    unsigned long length;
-    bool little_endian;
-};
-
-Bytes bytes_of(const ByteData& message) {
-    return {message.getBuffer(), message.getDataLength(), message.getEndian()};
-}
-
-Bytes bytes_of(const ShortMessage& message) {
-    return {reinterpret_cast<unsigned char*>(const_cast<std::byte*>(message.data())), message.bytes, true};
-}
-
-void copy(const Bytes& from, ByteData& to) {
-    to.isLittleEndian(from.little_endian);
-    to.writeData(from.data, from.length);
+    stream.rewindPtrs();
+    stream.setByteSwapFlag(true);
+    if (!marshal(stream)) return false;
+    to.writeData(static_cast<const unsigned char*>(stream.bufPtr()), stream.bufSize());
+    return true;
 }
 
 /// Copies a message with as many numbers as the variable has, as most have. Returns false, without side effects, for
 /// others.
-bool decode_numbers(const Bytes& from, const TimedNumbers<void>& to) {
+bool decode_numbers(const ByteData& from, const TimedNumbers<void>& to) {
     const std::size_t head = head_bytes(to.count, to.element_bytes),
                       bytes = std::size_t{to.count} * to.element_bytes;
-    if (to.tm == nullptr || from.little_endian != native_little_endian || from.length != head + bytes)
+    if (to.tm == nullptr || from.getEndian() != native_little_endian || from.getDataLength() != head + bytes)
         return false;
+    const unsigned char* const in = from.getBuffer();
     std::uint32_t count = 0;
-    std::memcpy(&count, from.data + time_bytes, sizeof count);
+    std::memcpy(&count, in + time_bytes, sizeof count);
     if (count != to.count) return false;
-    std::memcpy(to.tm, from.data, time_bytes);
-    copyBytes(to.elements, from.data + head, bytes);
+    std::memcpy(to.tm, in, time_bytes);
+    copyBytes(to.elements, in + head, bytes);
     return true;
 }
 
-void decode(const Bytes& from, Unmarshal& reader) {
+void decode(const ByteData& from, Unmarshal& reader) {
     if (decode_numbers(from, reader.numbers())) return;
-    cdrMemoryStream stream(from.data, from.length);
-    stream.setByteSwapFlag(from.little_endian);
+    cdrMemoryStream stream(from.getBuffer(), from.getDataLength());
+    stream.setByteSwapFlag(from.getEndian());
     reader(stream);
-}
-
-/// Returns the message that was taken last. [reading thread]
-template <class Ring>
-Bytes last_message(Ring& ring) {
-    const ShortMessage* const message = ring.short_message();
-    return message != nullptr ? bytes_of(*message) : bytes_of(ring.last());
-}
-
-/// Returns the message at an offset, which stays in the buffer. [no other thread uses the ring]
-template <class Ring>
-ByteData& read_at(Ring& ring, long offset) {
-    ByteData& value = ring.at(ring.readers(offset));
-    if (const auto message = ring.readers_short(offset)) copy(bytes_of(*message), value);
-    return value;
-}
-template <class Ring>
-ByteData& written_at(Ring& ring, long offset) {
-    ByteData& value = ring.at(ring.writers(offset));
-    if (const auto message = ring.writers_short(offset)) copy(bytes_of(*message), value);
-    return value;
 }
 
 void read_policy(const coil::Properties& prop, const char* key, const char* default_word,
@@ -239,32 +145,30 @@ void PortBuffer::wake() {
     changed_.notify_all();
 }
 
-/// Returns FULL if there is no room, NOT_SUPPORTED if the value cannot be encoded.
-template <class Message>
-inline BufferStatus PortBuffer::try_store(Turn& turn, Message& message, bool& overwritten) {
+/// Returns FULL if there is no room, NOT_SUPPORTED if `encode` returns false.
+template <class Encode>
+inline BufferStatus PortBuffer::try_store(Turn& turn, const Encode& encode, bool& overwritten) {
     const ShortLock lock(write_mutex_);
     turn.waits = turn.timeout > 0ns || (turn.timeout < 0ns && block_write_);
     turn.wakes = block_read_;
     if (turn.waits && turn.timeout < 0ns) turn.timeout = write_timeout_;
     if (ring_->is_full() && (turn.waits || !overwrite_)) return BufferStatus::FULL;
-    ShortMessage brief;
-    writes_short_ = message.make_short(brief);
-    if (writes_short_ && ring_->publish(brief)) return BufferStatus::OK;
     ByteData& next = ring_->next();
-    if (!message.copy_to(next)) return BufferStatus::NOT_SUPPORTED;
+    if (!encode(next)) return BufferStatus::NOT_SUPPORTED;
     const unsigned char* const bytes = next.getBuffer();
     overwritten = ring_->publish({&next, bytes, bytes + Ring::line, bytes});
     return BufferStatus::OK;
 }
 
-template <class Message>
-inline BufferStatus PortBuffer::store(std::chrono::nanoseconds timeout, Message message, bool& overwritten) {
+template <class Encode>
+inline BufferStatus PortBuffer::store(std::chrono::nanoseconds timeout, const Encode& encode,
+                                      bool& overwritten) {
     Turn turn{timeout};
     overwritten = false;
-    BufferStatus status = try_store(turn, message, overwritten);
+    BufferStatus status = try_store(turn, encode, overwritten);
     if (status == BufferStatus::FULL && turn.waits) {
         const auto stored = [&] {
-            status = try_store(turn, message, overwritten);
+            status = try_store(turn, encode, overwritten);
             return status != BufferStatus::FULL;
         };
         if (!wait(turn.timeout, stored)) return BufferStatus::TIMEOUT;
@@ -275,11 +179,23 @@ inline BufferStatus PortBuffer::store(std::chrono::nanoseconds timeout, Message 
 
 BufferStatus PortBuffer::write(const ByteData& message, std::chrono::nanoseconds timeout) {
     bool ignored = false;
-    return store(timeout, Encoded(message), ignored);
+    return store(
+        timeout,
+        [&](ByteData& to) {
+            to = message;
+            return true;
+        },
+        ignored);
 }
 
 BufferStatus PortBuffer::writeReporting(const ByteData& message, bool& overwritten) {
-    return store(-1ns, Encoded(message), overwritten);
+    return store(
+        -1ns,
+        [&](ByteData& to) {
+            to = message;
+            return true;
+        },
+        overwritten);
 }
 
 BufferStatus PortBuffer::writeInPlace(const Marshal& marshal) {
@@ -288,7 +204,8 @@ BufferStatus PortBuffer::writeInPlace(const Marshal& marshal) {
         return BufferStatus::OK;
     }
     bool ignored = false;
-    return store(-1ns, Encoding(marshal, stream_), ignored);
+    return store(
+        -1ns, [&](ByteData& to) { return encode(marshal, stream_, to); }, ignored);
 }
 
 void PortBuffer::rehearse_write(const Marshal& marshal) {
@@ -296,13 +213,10 @@ void PortBuffer::rehearse_write(const Marshal& marshal) {
     const ShortLock lock(write_mutex_, std::adopt_lock);
     tandem::rt::note_crossings(ring_->published());
     ring_->prefetch_for_publish();
-    Encoding encoding(marshal, stream_);
-    ShortMessage brief;
-    if (encoding.make_short(brief) && writes_short_) return;
     // Encoding a short message here would clear a long one.
     if (ByteData& next = ring_->next(); next.getDataLength() <= longest_rehearsed) {
         __builtin_prefetch(next.getBuffer(), 1);
-        encoding.copy_to(next);
+        encode(marshal, stream_, next);
     }
 }
 
@@ -317,7 +231,7 @@ inline BufferStatus PortBuffer::try_take(Turn& turn, const Decode& decode) {
         has_last_ = true;
     else if (turn.waits || !readback_ || !has_last_)
         return BufferStatus::EMPTY;
-    decode(last_message(*ring_));
+    decode(ring_->last());
     return BufferStatus::OK;
 }
 
@@ -334,13 +248,13 @@ inline BufferStatus PortBuffer::take(std::chrono::nanoseconds timeout, const Dec
 }
 
 BufferStatus PortBuffer::read(ByteData& message, std::chrono::nanoseconds timeout) {
-    return take(timeout, [&](const Bytes& from) { copy(from, message); });
+    return take(timeout, [&](const ByteData& from) { message = from; });
 }
 
 BufferStatus PortBuffer::readInPlace(ByteData&, Unmarshal& reader, bool& read_in_place) {
     read_in_place = true;
     if (rehearsing()) return rehearse_read(reader);
-    return take(-1ns, [&](const Bytes& from) { decode(from, reader); });
+    return take(-1ns, [&](const ByteData& from) { decode(from, reader); });
 }
 
 BufferStatus PortBuffer::rehearse_read(Unmarshal& reader) {
@@ -348,16 +262,15 @@ BufferStatus PortBuffer::rehearse_read(Unmarshal& reader) {
     const ShortLock lock(read_mutex_, std::adopt_lock);
     tandem::rt::note_crossings(ring_->taken());
     ring_->prefetch_for_take();
-    if (!has_last_) return BufferStatus::EMPTY;
-    const Bytes last = last_message(*ring_);
-    if (last.length > longest_rehearsed) return BufferStatus::EMPTY;
-    decode(last, reader);
+    if (!has_last_ || ring_->last().getDataLength() > longest_rehearsed) return BufferStatus::EMPTY;
+    decode(ring_->last(), reader);
     return BufferStatus::OK;
 }
 
 std::size_t PortBuffer::readable() const {
     const ShortLock lock(read_mutex_);
-    return ring_->waiting();
+    return ring_->empty() ? 0
+                          : std::max<std::size_t>(ring_->size(), 1); // the cell is filled before the count
 }
 
 void PortBuffer::note_lines() const {
@@ -376,7 +289,7 @@ std::size_t PortBuffer::writable() const {
 
 ByteData* PortBuffer::wptr(long n) {
     const std::scoped_lock lock(write_mutex_, read_mutex_);
-    return &written_at(*ring_, n);
+    return &ring_->at(ring_->writers(n));
 }
 
 BufferStatus PortBuffer::advanceWptr(long n, bool /*unlock_enable*/) {
@@ -385,10 +298,7 @@ BufferStatus PortBuffer::advanceWptr(long n, bool /*unlock_enable*/) {
         const long filled = static_cast<long>(ring_->size()), depth = static_cast<long>(ring_->depth());
         if (n > depth - filled || n < -filled) return BufferStatus::PRECONDITION_NOT_MET;
         for (; n > 0; --n) ring_->publish();
-        for (; n < 0; ++n) {
-            written_at(*ring_, -1);
-            ring_->unpublish();
-        }
+        for (; n < 0; ++n) ring_->unpublish();
     }
     wake();
     return BufferStatus::OK;
@@ -402,7 +312,7 @@ BufferStatus PortBuffer::put(const ByteData& message) {
 
 ByteData* PortBuffer::rptr(long n) {
     const std::scoped_lock lock(write_mutex_, read_mutex_);
-    return &read_at(*ring_, n);
+    return &ring_->at(ring_->readers(n));
 }
 
 BufferStatus PortBuffer::advanceRptr(long n, bool /*unlock_enable*/) {
@@ -420,7 +330,7 @@ BufferStatus PortBuffer::advanceRptr(long n, bool /*unlock_enable*/) {
 
 BufferStatus PortBuffer::get(ByteData& message) {
     const std::scoped_lock lock(write_mutex_, read_mutex_);
-    message = read_at(*ring_, 0);
+    message = ring_->at(ring_->readers(0));
     return BufferStatus::OK;
 }
 

@@ -61,10 +61,10 @@ class PortBuffer final : public CdrBufferBase, public InPlaceBuffer {
         bool waits = false;               ///< this call waits for the other end
         bool wakes = false;               ///< threads wait at the other end
     };
-    template <class Message>
-    BufferStatus try_store(Turn& turn, Message& message, bool& overwritten);
-    template <class Message>
-    BufferStatus store(std::chrono::nanoseconds timeout, Message message, bool& overwritten);
+    template <class Encode>
+    BufferStatus try_store(Turn& turn, const Encode& encode, bool& overwritten);
+    template <class Encode>
+    BufferStatus store(std::chrono::nanoseconds timeout, const Encode& encode, bool& overwritten);
     template <class Decode>
     BufferStatus try_take(Turn& turn, const Decode& decode);
     template <class Decode>
@@ -87,9 +87,7 @@ class PortBuffer final : public CdrBufferBase, public InPlaceBuffer {
     std::chrono::nanoseconds write_timeout_ = std::chrono::seconds(1);
     std::chrono::nanoseconds read_timeout_ = std::chrono::seconds(1);
 
-    alignas(cache_line) mutable tandem::rt::ShortMutex
-        write_mutex_;           // the writing end of ring_, and the next two members
-    bool writes_short_ = false; // the last message was short
+    alignas(cache_line) mutable tandem::rt::ShortMutex write_mutex_; // the writing end of ring_, and stream_
     cdrMemoryStream stream_;
 
     alignas(cache_line) mutable tandem::rt::ShortMutex read_mutex_; // the reading end of ring_
