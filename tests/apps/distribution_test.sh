@@ -23,4 +23,4 @@ for program in dpkg-query apt-get sudo; do
     chmod +x "$stubs/$program"
 done
 if said=$(PATH=$stubs:$PATH "$1/tests/cross_compile.sh" 2>&1); then fail "cross_compile.sh succeeds without a compiler"; fi
-case $said in *g++-aarch64-linux-gnu*) ;; *) fail "without a compiler, cross_compile.sh prints: $said" ;; esac
+case $said in *g++-*-linux-gnu*) ;; *) fail "without a compiler, cross_compile.sh prints: $said" ;; esac

@@ -104,8 +104,8 @@ TEST_CASE("the installed completion script is what tandem completion bash prints
 
 TEST_CASE("bash completes sub-commands and options of tandem") {
     CHECK(completions({"tandem", "rt"}) == "rtm\n");
-    CHECK(completions({"tandem", ""}) == "doctor opros rtm idl2opros opros2idl link run shm echo hz top "
-                                         "graph record replay bag monitor completion\n");
+    CHECK(completions({"tandem", ""}) == "doctor opros rtm idl2opros opros2idl link run system shm echo hz "
+                                         "top graph record replay bag monitor completion\n");
     CHECK(completions({"tandem", "shm", "st"}) == "stats\n");
     CHECK(completions({"tandem", "--v"}) == "--version\n");
     const std::string stats = completions({"tandem", "shm", "stats", "--"});

@@ -4,8 +4,8 @@
 import {groupsOf} from './groups.js';
 import {hasDetail} from './topology.js';
 
-/** With more components than this, hosts begin folded. */
-const mostComponents = 60;
+/** With more components than this, those hosts begin folded that have more than a few. */
+const mostComponents = 60, fewComponents = 10;
 /** Components with more ports than this begin folded, and with many ports in all of them those with more than a few. */
 const mostPorts = 40, manyPorts = 320, fewPorts = 8;
 /** So many failed and found components of a folded host are drawn. */
@@ -118,7 +118,7 @@ export function foldedTopology(topology, folds, isFound = () => false) {
   const many = topology.hosts.reduce((sum, {components}) => sum + components.reduce((all, {ports}) => all + ports.length, 0), 0) > manyPorts;
   for (const host of topology.hosts) {
     host.fold = `host ${host.title} ${host.components[0]?.base ?? ''}`;
-    host.folded = host.components.length > 1 && folds.isFolded(host.fold, total > mostComponents);
+    host.folded = host.components.length > 1 && folds.isFolded(host.fold, total > mostComponents && host.components.length > fewComponents);
     host.foldable = host.components.length > 1;
     if (host.folded) folder.foldHost(host, isFound);
     for (const component of host.components.filter(({others}) => !others)) {

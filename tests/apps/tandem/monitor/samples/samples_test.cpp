@@ -146,7 +146,7 @@ TEST_CASE("a long name of a picture's format is cut") {
     CHECK(picture->format == std::string(64, 'x'));
 }
 
-TEST_CASE("a plot gets every message, with its number and a time that increases") {
+TEST_CASE("a plot gets every message, with its number and a time that never decreases") {
     const Pair pair;
     const auto rings = add_ports(*pair.first, {"speed", "level"});
     RingWriter writer(rings[0]), other(rings[1]);
@@ -166,7 +166,7 @@ TEST_CASE("a plot gets every message, with its number and a time that increases"
         else
             CHECK(samples[i][2] == i);
         if (i > 0) CHECK(samples[i][0] == samples[i - 1][0].get<std::uint64_t>() + 1);
-        if (i > 0) CHECK(samples[i][1] > samples[i - 1][1]);
+        if (i > 0) CHECK(samples[i][1] >= samples[i - 1][1]); // in steps of a microsecond
     }
 }
 
