@@ -25,6 +25,7 @@ class CycleLines {
     /// Requests the lines. An address that has become invalid has no effect.
     void prefetch() const noexcept {
         for (std::size_t i = 0; i < count_; ++i) {
+            // NOLINTNEXTLINE(performance-no-int-to-ptr): never read, only requested
             const auto* const first = reinterpret_cast<const std::byte*>(runs_[i] / line * line);
             for (std::size_t more = 0; more <= runs_[i] % line; ++more)
                 __builtin_prefetch(first + more * line, 1);

@@ -217,7 +217,7 @@ class ConfReader {
         RTC::SettingOrigins origins;
         RTC::read_conf_file(file, settings, &origins);
         for (const auto& [key, origin] : origins) {
-            const std::string value = settings.getProperty(key);
+            const std::string& value = settings.getProperty(key);
             if (const auto error = rate_error(key, value); !error.empty())
                 throw RTC::ManagerError(origin + ": " + error);
             if (!asks_for_unavailable_context(key, value)) continue;

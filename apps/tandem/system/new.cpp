@@ -63,6 +63,7 @@ std::vector<Part> find_parts(const NewSystemOptions& options) {
 std::vector<std::string> opros_names(const Part& part) {
     if (part.count == 1) return {part.opros.name};
     std::vector<std::string> names;
+    names.reserve(static_cast<std::size_t>(part.count));
     for (int i = 0; i < part.count; ++i) names.push_back(part.opros.name + std::to_string(i));
     return names;
 }

@@ -128,7 +128,7 @@ constexpr Bound bounds[] = {
     {"tandem/path/opros-to-rtm/8/caller", 1520, 126, 27, 0, 8}, // 240 of them publish which callback may hang
     {"tandem/path/opros-to-rtm/8/worker", 1650, 165, 39, 0, 13},
     {"tandem/path/rtm-to-opros/48/sender", 300, 30, 8, 0, 0},
-    {"tandem/path/rtm-to-opros/48/receiver", 360, 40, 10, 0, 1},
+    {"tandem/path/rtm-to-opros/48/receiver", 360, 42, 10, 0, 1},
     {"tandem/path/rtm-to-opros/8/caller", 1460, 145, 35, 0, 10},
     {"tandem/path/rtm-to-opros/8/worker", 980, 98, 20, 0, 12},
     {"tandem/path/inside-opros/48/sender", 340, 35, 11, 0, 0},

@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-std::string text_of(const json& object, const char* name) {
+std::string printable_text(const json& object, const char* name) {
     const auto found = object.find(name);
     return found != object.end() && found->is_string() ? replace_control_characters(found->get<std::string>())
                                                        : "";
@@ -28,7 +28,7 @@ double number_of(const json& object, const char* name) {
 
 // "periodic, every 10 ms, phase 2 ms, priority 7"; leaves out zeros.
 std::string format_executor(const json& info) {
-    std::string text = text_of(info, "executor");
+    std::string text = printable_text(info, "executor");
     if (const double period = number_of(info, "period_ms"); period != 0)
         text += fmt::format(", every {} ms", period);
     if (const double phase = number_of(info, "phase_ms"); phase != 0)
@@ -38,16 +38,17 @@ std::string format_executor(const json& info) {
     return text;
 }
 
-std::string format_ports(const json& info) {
+std::string table_of_ports(const json& info) {
     Table table({"port", "kind", "direction", "type"});
     for (const json& port : info.value("ports", json::array())) {
-        const std::string kind = text_of(port, "kind");
+        const std::string kind = printable_text(port, "kind");
         const std::string type = kind == "service"                      ? ""
                                  : port.value("type", json()).is_null() ? "any"
-                                                                        : text_of(port, "type");
-        table.add_row({text_of(port, "name"), kind, text_of(port, "direction"), type});
+                                                                        : printable_text(port, "type");
+        table.add_row({printable_text(port, "name"), kind, printable_text(port, "direction"), type});
         for (const json& method : port.value("methods", json::array()))
-            table.add_row({"", "", "", text_of(method, "name") + ": " + text_of(method, "signature")});
+            table.add_row(
+                {"", "", "", printable_text(method, "name") + ": " + printable_text(method, "signature")});
     }
     return table.empty() ? "no ports\n" : table.text();
 }
@@ -55,8 +56,8 @@ std::string format_ports(const json& info) {
 std::string format_connections(const json& info) {
     Table table({"connection", "from", "to", "state"});
     for (const json& each : info.value("connections", json::array())) {
-        const std::string problem = text_of(each, "problem");
-        table.add_row({text_of(each, "kind"), text_of(each, "from"), text_of(each, "to"),
+        const std::string problem = printable_text(each, "problem");
+        table.add_row({printable_text(each, "kind"), printable_text(each, "from"), printable_text(each, "to"),
                        problem.empty() ? "made" : "not made: " + problem});
     }
     return table.empty() ? "no connections in the application profile\n" : table.text();
@@ -74,15 +75,15 @@ std::string format_properties(const json& info) {
 
 // Converts the JSON, so that both formats have the same contents.
 std::string format_info(const json& info) {
-    const std::string callback = text_of(info, "callback"), error = text_of(info, "last_error");
+    const std::string callback = printable_text(info, "callback"), error = printable_text(info, "last_error");
     std::string text =
         fmt::format("component  {}\nhost       opros_host {}\ntype       {}\nlibrary    {}\nprofile    {}\n"
                     "executor   {}\nstate      {}{}\n",
-                    text_of(info, "name"), info.value("pid", 0), text_of(info, "type"),
-                    text_of(info, "library"), text_of(info, "profile"), format_executor(info),
-                    text_of(info, "state"), callback.empty() ? "" : " (" + callback + ")");
+                    printable_text(info, "name"), info.value("pid", 0), printable_text(info, "type"),
+                    printable_text(info, "library"), printable_text(info, "profile"), format_executor(info),
+                    printable_text(info, "state"), callback.empty() ? "" : " (" + callback + ")");
     if (!error.empty()) text += "error      " + error + "\n";
-    return text + "\n" + format_ports(info) + "\n" + format_connections(info) + "\n" +
+    return text + "\n" + table_of_ports(info) + "\n" + format_connections(info) + "\n" +
            format_properties(info);
 }
 

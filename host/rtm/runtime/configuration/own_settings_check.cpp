@@ -55,11 +55,11 @@ std::string unknown_port_error(RTObject_impl& component, const std::string& key)
 /// may read properties of any name, so only a slight difference counts.
 std::string meant_context_setting(const std::string& key) {
     constexpr std::size_t likely_typing_error = 2;
-    const std::string rate = "exec_cxt.periodic.rate";
+    std::string rate = "exec_cxt.periodic.rate";
     const std::string normal = coil::normalize(key);
     if (normal == "rate" || (normal.starts_with("exec") && normal.ends_with("rate"))) return rate;
     for (const auto& known : conf_keys()) {
-        const std::string name = known.name;
+        std::string name = known.name;
         if (!name.starts_with("exec_cxt.") || key.size() > 2 * name.size()) continue;
         const bool lacks_begin = key.find('.') != std::string::npos && name.ends_with("." + normal);
         if (lacks_begin || tandem::text::edit_distance(normal, name) <= likely_typing_error) return name;
