@@ -16,7 +16,7 @@ using nlohmann::json;
 /// Prefix of the ports that some kinds of OPRoS components have for the engine's tools, such as `opros.symbol`.
 constexpr std::string_view engine_prefix = "opros.";
 
-std::string text_of(const json& port, const char* key) { return port[key].get<std::string>(); }
+std::string required_text(const json& port, const char* key) { return port[key].get<std::string>(); }
 
 /// Returns the direction of a port's peer.
 const char* opposite(const std::string& direction) {
@@ -57,8 +57,8 @@ class Matcher {
     std::string why_left_out(const char* side, const std::string& component, const json& port,
                              const std::string& peer) const {
         if (taken(side).count(port["name"]) != 0) return "";
-        const std::string what = component + "." + text_of(port, "name") + " (" + text_of(port, "kind") +
-                                 " " + text_of(port, "direction") + "): ";
+        const std::string what = component + "." + required_text(port, "name") + " (" +
+                                 required_text(port, "kind") + " " + required_text(port, "direction") + "): ";
         const std::string other = std::string(side) == "opros" ? "rtc" : "opros";
         std::vector<std::string> fitting;
         std::vector<const PortPair*> peers;
@@ -68,7 +68,7 @@ class Matcher {
             // Reports the reason once, for the OPRoS port of the pair.
             if (same_name(pair) && !pair.error.empty())
                 return what + (other == "rtc" ? pair.error
-                                              : peer + "." + text_of(pair.opros, "name") +
+                                              : peer + "." + required_text(pair.opros, "name") +
                                                     " has the same name, but its type does not fit");
             if (fits(pair)) fitting.push_back(side_of(pair, other)["name"]);
         }
@@ -82,9 +82,10 @@ class Matcher {
         // reason suffices.
         const bool has_reason = other == "rtc" && !peers.empty() && !peers.front()->error.empty();
         if (has_reason && peers.size() == 1) return what + peers.front()->error;
-        return what + "no " + opposite(port["direction"]) + " " + text_of(port, "kind") + " port of " + peer +
-               " is left whose type fits" +
-               (has_reason ? "; " + text_of(peers.front()->rtc, "name") + ": " + peers.front()->error : "");
+        return what + "no " + opposite(port["direction"]) + " " + required_text(port, "kind") + " port of " +
+               peer + " is left whose type fits" +
+               (has_reason ? "; " + required_text(peers.front()->rtc, "name") + ": " + peers.front()->error
+                           : "");
     }
 
     std::vector<PortPair> chosen;
@@ -109,8 +110,8 @@ class Matcher {
         });
     }
     void take(PortPair pair, const char* how) {
-        opros_.insert(text_of(pair.opros, "name"));
-        rtc_.insert(text_of(pair.rtc, "name"));
+        opros_.insert(required_text(pair.opros, "name"));
+        rtc_.insert(required_text(pair.rtc, "name"));
         pair.matched = how;
         chosen.push_back(std::move(pair));
     }
@@ -129,7 +130,7 @@ PortType port_type(const json& port) {
 std::vector<PortPair> possible_pairs(const json& opros_ports, const json& rtc_ports) {
     std::vector<PortPair> pairs;
     for (const auto& opros : opros_ports) {
-        if (text_of(opros, "name").starts_with(engine_prefix)) continue;
+        if (required_text(opros, "name").starts_with(engine_prefix)) continue;
         for (const auto& rtc : rtc_ports)
             if (opros["kind"] == rtc["kind"] && rtc["direction"] == opposite(opros["direction"]))
                 pairs.push_back({opros, rtc, "", ""});
@@ -147,7 +148,7 @@ PortMatch match_ports(const std::string& opros, const json& opros_ports, const s
         if (!line.empty()) match.left_out.push_back(line);
     };
     for (const auto& port : opros_ports)
-        if (!text_of(port, "name").starts_with(engine_prefix))
+        if (!required_text(port, "name").starts_with(engine_prefix))
             add(matcher.why_left_out("opros", opros, port, rtc));
     for (const auto& port : rtc_ports)
         if (port["name"] != "linkState") add(matcher.why_left_out("rtc", rtc, port, opros));

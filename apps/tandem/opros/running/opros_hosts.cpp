@@ -99,6 +99,7 @@ RunningComponent find_running_component(const OprosClientOptions& options, const
     if (found.empty()) throw std::runtime_error(unknown_component(hosts, name));
     if (found.size() > 1) {
         std::vector<std::string> names;
+        names.reserve(found.size());
         for (const auto* host : found) names.push_back(fmt::format("{}/{}", host->pid, component));
         throw std::runtime_error(fmt::format("{} hosts have a component {}: name one of {}", found.size(),
                                              name, fmt::join(names, ", ")));
