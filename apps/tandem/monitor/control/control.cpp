@@ -2,6 +2,7 @@
 #include "apps/tandem/monitor/control/control.hpp"
 
 #include "apps/tandem/monitor/control/host_logs.hpp"
+#include "apps/tandem/monitor/control/output_text.hpp"
 #include "apps/tandem/monitor/control/recordings.hpp"
 #include "host/text/printable.hpp"
 #include "shm/segment/segment_file.hpp"
@@ -28,30 +29,10 @@ namespace {
 
 constexpr std::chrono::milliseconds look_pause{20};
 
-/// Returns so many bytes of a program's output, without control characters and as valid UTF-8.
-std::string text_in(int file, std::size_t size, std::size_t begin = 0) {
-    std::string text(size, '\0');
-    const auto bytes = pread(file, text.data(), text.size(), static_cast<off_t>(begin));
-    text.resize(bytes < 0 ? 0 : static_cast<std::size_t>(bytes));
-    return text::printable_text(text);
-}
-
-std::size_t size_of(int file) {
-    return static_cast<std::size_t>(std::max<off_t>(lseek(file, 0, SEEK_END), 0));
-}
-
-/// Returns the last lines of a program's output: every state has them.
-std::string last_lines(int file) {
-    constexpr std::size_t most = 2048;
-    const std::size_t size = size_of(file);
-    if (size <= most) return text_in(file, size);
-    std::string text = text_in(file, most, size - most);
-    return text.erase(0, text.find('\n') + 1);
-}
-
 using PlainJson = nlohmann::json;
 
 constexpr std::size_t max_arguments = 16, max_components = 100, max_argument = 300;
+constexpr std::size_t max_replay_end = 2048; ///< bytes: each state has them
 
 std::string random_token() {
     std::array<unsigned char, 16> bytes{};
@@ -190,7 +171,7 @@ nlohmann::ordered_json Control::status() {
         status["replay"] = {{"file", replayed_file_},
                             {"running", running},
                             {"since_ms", player_->since_ms()},
-                            {"end", running ? "" : last_lines(player_output_.get())}};
+                            {"end", running ? "" : last_lines(player_output_.get(), max_replay_end)}};
     }
     if (systems_) status["systems"] = systems_->runs();
     return status;
@@ -276,7 +257,10 @@ void Control::change_systems(const PlainJson& request, const Reply& reply) {
     if (command == "log") return reply(answer(request, true, systems_->log(name)));
     if (command != "start" && command != "stop")
         return reply(answer(request, false, "expected command list, new, save, start, stop or log"));
-    command == "start" ? systems_->start(name) : systems_->stop(name);
+    if (command == "start")
+        systems_->start(name);
+    else
+        systems_->stop(name);
     reply(answer(request, true, ""));
 }
 

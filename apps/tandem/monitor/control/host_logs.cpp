@@ -35,9 +35,7 @@ int tandem_above(std::uint32_t pid) {
             status >> parent;
             break;
         }
-    std::string name;
-    std::getline(std::ifstream(fmt::format("/proc/{}/comm", parent)), name);
-    return name == "tandem" ? parent : 0;
+    return program_of(static_cast<std::uint32_t>(parent)) == "tandem" ? parent : 0;
 }
 
 /// Adds the standard error of a process to the logs if it is a file of this user. Never opens a pipe, whose reader it would be.

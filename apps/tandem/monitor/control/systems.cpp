@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/monitor/control/systems.hpp"
 
-#include "host/text/printable.hpp"
+#include "apps/tandem/monitor/control/output_text.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -20,7 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr off_t max_shown = 64 << 10, max_log = 16 << 20; ///< bytes of a log
+constexpr std::size_t max_shown = 64 << 10; ///< bytes of a log
+constexpr off_t max_log = 16 << 20;
 
 /// Throws unless the name is that of a link, as `tandem system new` needs it: it cannot lead to another folder.
 const std::string& require_name(const std::string& name) {
@@ -53,12 +54,7 @@ std::string end_of(const fs::path& log) {
     const process::FileDescriptor file(open(log.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
     struct stat status {};
     if (file.get() < 0 || fstat(file.get(), &status) != 0 || !S_ISREG(status.st_mode)) return "";
-    std::string text(static_cast<std::size_t>(std::min(status.st_size, max_shown)), '\0');
-    const auto bytes =
-        pread(file.get(), text.data(), text.size(), status.st_size - static_cast<off_t>(text.size()));
-    text.resize(bytes < 0 ? 0 : static_cast<std::size_t>(bytes));
-    if (status.st_size > max_shown) text.erase(0, text.find('\n') + 1);
-    return text::printable_text(text);
+    return last_lines(file.get(), max_shown);
 }
 
 /// Keeps the end of a log that has become long. Lines that arrive meanwhile are lost.
