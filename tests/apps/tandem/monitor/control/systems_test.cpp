@@ -37,6 +37,18 @@ struct SystemsFolder {
     fs::path path;
 };
 
+/// A monitor that stops the systems that it has started. A test that fails would leave them running otherwise.
+struct SystemsMonitor : RunningMonitor {
+    explicit SystemsMonitor(const SystemsFolder& folder) : RunningMonitor("no-link", folder.options()) {}
+    ~SystemsMonitor() {
+        if (!runs()) return;
+        kill(pid(), SIGTERM);
+        eventually([this] { return !runs(); }, std::chrono::seconds(30));
+    }
+    SystemsMonitor(const SystemsMonitor&) = delete;
+    SystemsMonitor& operator=(const SystemsMonitor&) = delete;
+};
+
 json ask(const RunningMonitor& monitor, json request) {
     Live client(monitor, 0, "/api/control");
     client.send(json{{"token", monitor.token}}.dump());
@@ -73,7 +85,7 @@ TEST_CASE("no name leads out of the folder of systems") {
     const SystemsFolder folder, other;
     other.add("outside");
     fs::create_directory_symlink(other.path / "outside", folder.path / "linked");
-    const RunningMonitor monitor("no-link", folder.options());
+    const SystemsMonitor monitor(folder);
     for (const std::string name :
          {"", ".", "..", "../outside", "a/b", "-x", "linked", "missing", "a b", "a\nb"})
         for (const char* command : {"start", "stop", "log"}) {
@@ -93,7 +105,7 @@ TEST_CASE("the folders of systems and of built components are listed") {
     folder.add("robot");
     fs::create_directory(folder.path / "notes");
     fs::copy(TANDEM_PARTS, folder.path, fs::copy_options::recursive);
-    const RunningMonitor monitor("no-link", folder.options());
+    const SystemsMonitor monitor(folder);
     const json list = json::parse(ask(monitor, {{"command", "list"}})["text"].get<std::string>());
     CHECK(list["systems"] == json{"robot"});
     CHECK(list["components"] ==
@@ -121,7 +133,7 @@ TEST_CASE(
 TEST_CASE("the end of a run that fails is in the state, and its log says why") {
     const SystemsFolder folder;
     folder.add("robot", "manager.components.precreate: Nothing\n");
-    const RunningMonitor monitor("no-link", folder.options());
+    const SystemsMonitor monitor(folder);
     REQUIRE(ask(monitor, {{"command", "start"}, {"name", "robot"}})["ok"] == true);
     CHECK(eventually([&] { return run_of(monitor)["end"] == "exited with 1"; }));
     CHECK(run_of(monitor)["running"] == false);
@@ -133,7 +145,7 @@ TEST_CASE("a log that is a pipe or a link holds nothing up and is not written") 
     const SystemsFolder folder;
     folder.add("robot");
     const fs::path log = folder.path / "robot/run.log";
-    const RunningMonitor monitor("no-link", folder.options());
+    const SystemsMonitor monitor(folder);
     REQUIRE(mkfifo(log.c_str(), 0600) == 0);
     CHECK(ask(monitor, {{"command", "start"}, {"name", "robot"}})["ok"] == false);
     CHECK(ask(monitor, {{"command", "log"}, {"name", "robot"}})["text"] == "");
@@ -148,7 +160,7 @@ TEST_CASE("the log of a run stays bounded, and only this user reads it") {
     const SystemsFolder folder;
     folder.add("robot");
     const fs::path log = folder.path / "robot/run.log";
-    const RunningMonitor monitor("no-link", folder.options());
+    const SystemsMonitor monitor(folder);
     REQUIRE(ask(monitor, {{"command", "start"}, {"name", "robot"}})["ok"] == true);
     CHECK((fs::status(log).permissions() & fs::perms::all) ==
           (fs::perms::owner_read | fs::perms::owner_write));
@@ -172,7 +184,7 @@ TEST_CASE("a run that outlives its monitor is not started twice") {
         kill(killed.pid(), SIGKILL);
         REQUIRE(eventually([&] { return !killed.runs(); }));
     }
-    const RunningMonitor monitor("no-link", folder.options());
+    const SystemsMonitor monitor(folder);
     const std::string before = log(), mark = "started, pid ";
     const auto start = [&] { return ask(monitor, {{"command", "start"}, {"name", "robot"}}); };
     CHECK_THAT(start()["text"].get<std::string>(), Catch::Contains("started by another monitor"));
@@ -189,7 +201,7 @@ TEST_CASE("a system runs once at a time, is stopped in order, and ends with the 
         return std::string(std::istreambuf_iterator<char>(file), {});
     };
     const auto has = [&](const char* line) { return log().find(line) != std::string::npos; };
-    RunningMonitor monitor("no-link", folder.options());
+    SystemsMonitor monitor(folder);
     REQUIRE(ask(monitor, {{"command", "start"}, {"name", "robot"}})["ok"] == true);
     CHECK(ask(monitor, {{"command", "start"}, {"name", "robot"}})["text"] == "robot runs");
     CHECK(eventually([&] { return has("ready"); }));
