@@ -75,7 +75,8 @@ std::vector<std::string> save_opros(const RunningSystem& system, const fs::path&
             const auto running = find_running_component(options, fmt::format("{}/{}", system.opros, name));
             const auto reply = request_component(options, running, "conf");
             save_properties(node, *component, engine::read_component_profile(file), reply.at("properties"));
-        } catch (const std::runtime_error& error) { // a composite, or left out by the host
+        } catch (const std::exception&
+                     error) { // a composite, left out by the host, or an answer without properties
             left_out.push_back("properties of " + name + ": " + error.what());
         }
     }
