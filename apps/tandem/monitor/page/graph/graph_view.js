@@ -15,7 +15,7 @@ const find = (id) => document.getElementById(id);
 export class Graph {
   /** `choose`: called with a port's key. `filter`: called with the component of a line of ports. `system`: of system_view.js. */
   constructor(choose, filter, system) {
-    Object.assign(this, {parent: find('graph'), choose, filter, key: '', layout: null, state: null, last: new Map(), lastHosts: new Map(), text: '', at: -1});
+    Object.assign(this, {parent: find('graph'), choose, filter, key: '', layout: null, state: null, last: new Map(), lastHosts: new Map(), text: '', failure: '', at: -1});
     this.folds = new Folds();
     this.drawing = new Drawing(this.parent, {port: (port, key) => this.choosePort(port, key), fold: (box) => this.fold(box), edge: (edge) => this.connector.edge(edge)});
     this.connector = new Connector(this.drawing, system, () => this.draw());
@@ -76,7 +76,7 @@ export class Graph {
     const all = topologyOf(links.map((link) => this.withLastPorts(link)), refused, rowsOf({components, ticks}), this.withLastHosts({links, hosts}));
     const topology = this.newest = foldedTopology(all, this.folds, (component) => this.isFound(component));
     this.parent.hidden = topology.hosts.length === 0;
-    setText(find('graph-note'), topology.hosts.length === 0 ? 'No host.' : topology.note || (this.failure ?? ''));
+    setText(find('graph-note'), topology.hosts.length === 0 ? 'No host.' : topology.note || this.failure);
     find('graph-note').hidden = find('graph-note').textContent === '';
     setText(find('graph-fold'), topology.hosts.some(({folded}) => folded) ? 'Unfold all' : 'Fold all');
     this.connector.show();
@@ -91,6 +91,7 @@ export class Graph {
     try {
       const layout = await layOut(topology, this.width);
       if (this.key !== topology.key) return; // changed meanwhile; another layout follows
+      this.failure = '';
       const before = this.placeOf(this.anchor);
       this.layout = {key: topology.key, ...layout};
       this.zoom.resize(layout.width, layout.height);
