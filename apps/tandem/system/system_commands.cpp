@@ -27,10 +27,9 @@ void add_new(CLI::App& system, Action& selected) {
     CLI::App* command = add_command(
         system, "new", "Writes a folder for tandem run with components of both models, without connections",
         "A COMPONENT is the folder of a built component of either model, or its profile or module. Name it\n"
-        "several times for several instances. Each OPRoS component is also shown as an RTC: tandem rtm "
-        "connect\n"
-        "and the page of tandem monitor --control connect any two ports while the system runs, and tandem\n"
-        "system save keeps the connections.");
+        "several times for several instances. Each OPRoS component is also shown as an RTC: tandem rtm\n"
+        "connect and the page of tandem monitor --control connect any two ports while the system runs, and\n"
+        "tandem system save keeps the connections.");
     command->add_option("DIR", options->folder, "folder to write; its name is that of the link")->required();
     command->add_option("COMPONENT", options->components, "components")->required();
     command->add_option("--timeout", options->timeout_s, "time limit for the components' code (10)")

@@ -367,7 +367,10 @@ void Application::unload_libraries() {
     const auto all = pointers(components_);
     auto series = bounded_series(all);
     series.work = [all](std::size_t i) { all[i]->unload_library(); };
-    series.on_timeout = [mark = series.on_timeout](std::size_t i) { return mark(i), false; };
+    series.on_timeout = [this, all](std::size_t i) {
+        mark_stuck(*all[i]);
+        return false; // those of the others stay loaded
+    };
     process::BoundedCall::run_series(series);
     if (!stuck_components_.empty()) return;
     for (std::size_t i = 0; i < files.size(); ++i)

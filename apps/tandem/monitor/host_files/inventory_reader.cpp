@@ -19,7 +19,7 @@ namespace {
 using Head = process::InventoryHead;
 using Fields = std::vector<std::string>;
 
-/// The ends of a connection that a line of its own lists.
+/// A connection that has a line in the inventory, by its two ends.
 struct Connection {
     std::string from_component, from_port, to_component, to_port;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sends a sine and a cosine of its own, plus what it receives.
+// Sends a sine, plus the number that it received last, and a cosine.
 #include <OPRoSInclude.h>
 
 #include <cmath>
