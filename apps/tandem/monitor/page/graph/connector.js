@@ -10,9 +10,9 @@ const slack = 6; // px that a click may move
 const shortOf = ({component, name}) => `${component}.${name.startsWith(`${component}.`) ? name.slice(component.length + 1) : name}`;
 
 export class Connector {
-  /** `system`: of system_view.js. `redraw`: called when other ports are marked. */
+  /** `system`: of system_view.js. `redraw`: called when other ports are marked. `pressed`: whether the pointer is down on a port. */
   constructor(drawing, system, redraw) {
-    Object.assign(this, {drawing, system, redraw, from: null, dialog: new ConnectionDialog(system)});
+    Object.assign(this, {drawing, system, redraw, from: null, pressed: false, dialog: new ConnectionDialog(system)});
     setText(find('graph-choice'), hint);
     drawing.mark = (port) => this.mark(port);
     drawing.svg.addEventListener('pointerdown', (event) => this.press(event));
@@ -97,6 +97,7 @@ export class Connector {
       line.setAttribute('d', `M ${x} ${y} L ${to.x} ${to.y}`);
     };
     const end = (event) => {
+      this.pressed = false;
       removeEventListener('pointermove', move);
       for (const type of ['pointerup', 'pointercancel']) removeEventListener(type, end);
       if (!line.parentNode) return; // a click
@@ -105,6 +106,7 @@ export class Connector {
       // The click that follows on the same port is part of the drag.
       addEventListener('click', (click) => click.stopPropagation(), {capture: true, once: true, signal: AbortSignal.timeout(0)});
     };
+    this.pressed = true;
     addEventListener('pointermove', move);
     for (const type of ['pointerup', 'pointercancel']) addEventListener(type, end);
   }

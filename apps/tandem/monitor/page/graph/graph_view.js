@@ -71,6 +71,7 @@ export class Graph {
   /** Shows a state, or the last one again. Returns when it is drawn. */
   async show(state = this.state) {
     this.state = state;
+    if (this.connector.pressed) return; // the graph holds still below the pointer
     const {links, refused_connections: refused, components, ticks, hosts} = state, known = new Set(links.map(({name}) => name));
     for (const name of this.last.keys()) if (!known.has(name)) this.last.delete(name);
     const all = topologyOf(links.map((link) => this.withLastPorts(link)), refused, rowsOf({components, ticks}), this.withLastHosts({links, hosts}));
@@ -90,7 +91,8 @@ export class Graph {
     this.width = this.parent.clientWidth;
     try {
       const layout = await layOut(topology, this.width);
-      if (this.key !== topology.key) return; // changed meanwhile; another layout follows
+      if (this.connector.pressed) this.key = '';
+      if (this.key !== topology.key) return; // changed or held meanwhile; another layout follows
       this.failure = '';
       const before = this.placeOf(this.anchor);
       this.layout = {key: topology.key, ...layout};

@@ -176,7 +176,7 @@ export class SystemView {
     this.tell(reply.ok ? `✓ ${text}: done` : `✕ ${text}: ${lines || 'failed'}`, !reply.ok);
     if (reply.ok && undo) this.done = [...this.done, undo].slice(-mostUndone);
     this.showUndo();
-    await this.read();
+    this.read();
     return reply.ok;
   }
 

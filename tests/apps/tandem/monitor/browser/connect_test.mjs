@@ -6,12 +6,12 @@ import { after, before, test } from "node:test";
 import { cleanUp, start, startBrowser, startMonitor } from "./robot.mjs";
 
 const pictures = process.env.TANDEM_PICTURES;
-let browser, page;
+const startChair = () => start(join(process.env.TANDEM_BIN, "wheelchair"), ["--config", "rtm", "--scenario", "s_curve", "--duration", "300"]).line(/rtm_host pid (\d+)/);
+let monitor, browser, page;
 
 before(async () => {
-  const chair = start(join(process.env.TANDEM_BIN, "wheelchair"), ["--config", "rtm", "--scenario", "s_curve", "--duration", "300"]);
-  await chair.line(/rtm_host pid (\d+)/);
-  const monitor = await startMonitor([], 0, ["--control"]);
+  await startChair();
+  monitor = await startMonitor([], 0, ["--control"]);
   browser = await startBrowser([]);
   page = await browser.open(monitor.url);
   await page.waitForSelector("#graph-control:not([hidden])");
@@ -110,4 +110,18 @@ test("a change that a host refuses is told in the form", async () => {
   await fitIs(/^✕ They cannot be connected: they are connected\.$/);
   assert.equal(await host.textContent(), "");
   await page.keyboard.press("Escape");
+});
+
+test("the graph holds still as long as the pointer is down on a port", async () => {
+  const hosts = page.locator("#graph .host"), shown = await hosts.count();
+  await port("JoystickComp0", "reference").locator("circle").hover();
+  await page.mouse.down();
+  const [, pid] = await startChair();
+  const isListed = async () => (await (await fetch(new URL("api/state", monitor.url))).json()).hosts.some((host) => host.pid === Number(pid));
+  while (!await isListed()) await page.waitForTimeout(50);
+  await page.waitForTimeout(1000); // several states
+  assert.equal(await hosts.count(), shown);
+  await page.mouse.up();
+  await hosts.nth(shown).waitFor();
+  assert.deepEqual(page.errors, []);
 });
