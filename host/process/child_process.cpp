@@ -68,6 +68,8 @@ class SpawnSettings {
     }
     /// Gives the program descriptor `source` of this process as its descriptor `target`.
     void redirect(int source, int target) { posix_spawn_file_actions_adddup2(&actions_, source, target); }
+    /// Closes all descriptors from this one on: libraries open some that a program would inherit.
+    void close_from(int first) { posix_spawn_file_actions_addclosefrom_np(&actions_, first); }
     void set_folder(const std::string& folder) {
         posix_spawn_file_actions_addchdir_np(&actions_, folder.c_str());
     }
@@ -128,6 +130,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& command, const ChildO
     const Redirections redirections(settings, options);
     if (!options.terminal.empty()) settings.set_terminal(options.terminal);
     if (!options.folder.empty()) settings.set_folder(options.folder);
+    settings.close_from(options.report < 0 ? report_descriptor : redirected_descriptors);
     if (const int error = settings.spawn(pid_, command); error != 0) {
         pid_ = -1;
         fail(error, command.at(0) + " cannot be started");

@@ -25,7 +25,7 @@ struct ExitStatus {
 constexpr int report_descriptor = 3;
 
 /// Settings of a new child process. Descriptors remain the caller's. With -1, the child inherits this process's
-/// descriptor (`report`: the child has none).
+/// descriptor (`report`: the child has none). It inherits no others.
 struct ChildOptions {
     int input = -1, output = -1, errors = -1; ///< its standard input, output and error
     std::string folder{};                     ///< its working folder; empty: that of this process

@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 #include <cerrno>
 #include <csignal>
+#include <fcntl.h>
 #include <optional>
 #include <sys/wait.h>
 #include <thread>
@@ -110,6 +111,21 @@ TEST_CASE("a child starts with no signal blocked") {
     sigprocmask(SIG_UNBLOCK, &term, nullptr);
     REQUIRE(child.stop(30s));
     CHECK(child.poll()->code == SIGTERM);
+}
+
+// Connections that a library has accepted, for example, stay open at the other end as long as any process has them.
+TEST_CASE("a child has no descriptors but those that it is given, also if others may be inherited") {
+    int ends[2];
+    REQUIRE(pipe(ends) == 0); // without O_CLOEXEC
+    const int high = fcntl(ends[0], F_DUPFD, 200);
+    OutputPipe pipe;
+    // Without the one by which the shell reads the folder.
+    const auto list = shell("for fd in /proc/$$/fd/*; do [ -e $fd ] && printf '%s ' ${fd##*/}; done; echo");
+    ChildProcess child(list, {-1, pipe.writer()});
+    CHECK(read_line(pipe) == "0 1 2 ");
+    ChildProcess reporting(list, {-1, pipe.writer(), -1, "", ends[1]});
+    CHECK(read_line(pipe) == "0 1 2 3 ");
+    for (const int fd : {ends[0], ends[1], high}) close(fd);
 }
 
 TEST_CASE("a process moved from another one ends the one it owned") {
