@@ -8,7 +8,8 @@
 
 namespace tandem::text {
 
-/// Returns the texts of all items with a separator between them. `text_of`: a function or a member of an item.
+/// Returns the texts of all items with a separator between them. `text_of`: a function or a member of an item, which
+/// fmt::join does not take.
 template <class Items, class TextOf = std::identity>
 std::string join(const Items& items, std::string_view separator, TextOf text_of = {}) {
     std::string joined;

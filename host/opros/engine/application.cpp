@@ -37,6 +37,7 @@ void log_node(const NodePart& part) {
 
 std::vector<ComponentHost*> pointers(const std::vector<std::unique_ptr<ComponentHost>>& components) {
     std::vector<ComponentHost*> all;
+    all.reserve(components.size());
     for (const auto& component : components) all.push_back(component.get());
     return all;
 }
