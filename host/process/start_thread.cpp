@@ -115,7 +115,7 @@ std::vector<Limit> possible_limits() {
 /// Returns the limit that is reached. The kernel does not tell which one it is, and /proc may hide what counts: then
 /// returns all limits that are set.
 std::string limit_text() {
-    if (const std::string full = full_control_group(); !full.empty()) return full;
+    if (std::string full = full_control_group(); !full.empty()) return full;
     const std::string remedy = "; end some, or raise it";
     std::string all;
     const auto limits = possible_limits();

@@ -137,6 +137,7 @@ ReturnCode_t RTObject_impl::on_deactivated(UniqueId ec_id) {
 }
 
 ReturnCode_t RTObject_impl::on_aborting(UniqueId ec_id) {
+    if (const char* failed = m_failedCallback) RTC_ERROR(("went to ERROR: its %s has failed", failed));
     return run_guarded("onAborting", ec_id, Pre::PRE_ON_ABORTING, Post::POST_ON_ABORTING,
                        [&] { return onAborting(ec_id); });
 }

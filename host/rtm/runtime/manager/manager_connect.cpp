@@ -103,11 +103,7 @@ void Manager::Impl::activate(RTObject_impl& component) {
             RTC_WARN(("%s is still INACTIVE: its execution context has not begun the activation, its thread "
                       "is busy",
                       name.c_str()));
-        } else {
-            // ACTIVE: the failure of onActivated leads to ERROR in the next cycle.
-            const char* failed = component.failedCallback();
-            RTC_ERROR(("%s went to ERROR: its %s has failed", name.c_str(), failed ? failed : "onActivated"));
-        }
+        } // else its log says which callback has failed
     }
 }
 

@@ -153,7 +153,9 @@ TEST_CASE("A component that throws goes to the error state and its host keeps ru
                                         "manager.components.preactivation: Thrower0\n")});
     REQUIRE(host.wait_for_output("ready\n"));
     REQUIRE(host.wait_for_output("aborting\n"));
-    CHECK(host.wait_for_error("Thrower0 went to ERROR: its onExecute has failed\n"));
+    const bool is_told = host.wait_for_error("Thrower0: went to ERROR: its onExecute has failed\n");
+    INFO(host.errors);
+    CHECK(is_told);
     host.send_signal(SIGTERM);
     CHECK(host.wait_for_exit() == 0);
     CHECK(host.errors.find("Thrower0: onExecute threw: on purpose") != std::string::npos);

@@ -81,7 +81,7 @@ TEST_CASE("A slow onActivated is no error: the host says that it waits and when 
     CHECK(host.wait_for_error("onActivated of SlowDevice0 has returned within "));
     CHECK(host.wait_for_error(" s; SlowDevice0 is ACTIVE\n"));
     CHECK(host.wait_for_error(" s; SlowDevice1 is ERROR\n"));
-    CHECK_THAT(host.errors, Contains("SlowDevice2 went to ERROR: its onActivated has failed\n"));
+    CHECK_THAT(host.errors, Contains("SlowDevice2: went to ERROR: its onActivated has failed\n"));
     host.send_signal(SIGTERM);
     CHECK(host.wait_for_exit() == 0);
 }

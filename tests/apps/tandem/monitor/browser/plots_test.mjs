@@ -43,8 +43,8 @@ test("a click on a port opens its plot in view: its signals, without time stamp 
   const box = await page.locator(".plot-card .plot").boundingBox();
   assert.ok(box.y >= 0 && box.y + box.height <= 800, JSON.stringify(box));
   assert.match(await page.locator("#values-title").textContent(), /^Newest message of reference/);
-  const kinds = await page.locator("#member-tree [aria-pressed]").allTextContents();
-  assert.deepEqual(kinds, ["tm.sec time stamp", "tm.nsec time stamp", "data[0] time stamp", "data[1] sequence number", "data[2]", "data[3]"]);
+  await page.waitForFunction((kinds) => [...document.querySelectorAll("#member-tree [aria-pressed]")].map((member) => member.textContent).join() === kinds,
+    ["tm.sec time stamp", "tm.nsec time stamp", "data[0] time stamp", "data[1] sequence number", "data[2]", "data[3]"].join());
 });
 
 test("every message of the port is plotted", async () => {
