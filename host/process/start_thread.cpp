@@ -127,7 +127,7 @@ std::string limit_text() {
 }
 
 std::string explain(int error) {
-    const std::string reason = std::generic_category().message(error);
+    std::string reason = std::generic_category().message(error);
     if (error == EAGAIN || error == ENOMEM) return reason + ": " + limit_text();
     if (error == EPERM || error == ENOSYS)
         return reason +
