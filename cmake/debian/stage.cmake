@@ -42,7 +42,8 @@ endif()
 string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)
 set(doc ${CPACK_TANDEM_BUILD}/debian/doc)
 file(REMOVE_RECURSE ${doc})
-file(WRITE ${doc}/changelog.Debian "tandem (${CPACK_PACKAGE_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}) bookworm; urgency=medium
+cmake_host_system_information(RESULT release QUERY DISTRIB_VERSION_CODENAME) # bookworm
+file(WRITE ${doc}/changelog.Debian "tandem (${CPACK_PACKAGE_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}) ${release}; urgency=medium
 
   * Version ${CPACK_PACKAGE_VERSION}: changelog.gz says what is new.
 

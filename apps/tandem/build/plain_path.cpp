@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_control(char c) { return (c >= 0 && c < ' ') || c == 0x7f; }
+bool is_control(unsigned char c) { return c < ' ' || c == 0x7f; }
 
 /// Returns the first control character or one of `special`, in words; empty if there is none.
 std::string find_special(const std::string& text, std::string_view special) {
@@ -32,9 +32,8 @@ std::string whole_name(const fs::path& path) { return fs::absolute(path).lexical
                                          text::printable_line(name), found, reader));
 }
 
-bool is_one_of(char c, std::string_view others) {
-    return c >= 0 &&
-           (std::isalnum(static_cast<unsigned char>(c)) != 0 || others.find(c) != std::string_view::npos);
+bool is_one_of(unsigned char c, std::string_view others) {
+    return c < 128 && (std::isalnum(c) != 0 || others.find(static_cast<char>(c)) != std::string_view::npos);
 }
 
 } // namespace

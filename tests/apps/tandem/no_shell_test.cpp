@@ -95,7 +95,7 @@ std::vector<Command> commands_with(const std::string& name) {
 
 bool has_control_characters(const std::string& text) {
     return std::any_of(text.begin(), text.end(),
-                       [](char c) { return (c >= 0 && c < ' ' && c != '\n' && c != '\t') || c == 0x7f; }) ||
+                       [](unsigned char c) { return (c < ' ' && c != '\n' && c != '\t') || c == 0x7f; }) ||
            text.find("\xc2\x9b") != std::string::npos;
 }
 

@@ -6,6 +6,7 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <sys/wait.h>
 #include <unistd.h>
 #include <vector>
 
@@ -71,7 +72,7 @@ struct Expected {
     int signal;
     const char *what, *function;
 };
-const std::vector<Expected> faults{
+const std::vector<Expected> all_faults{
     {"null pointer", SIGSEGV, "signal 11 (Segmentation fault), no memory at address 0x0, in read_level at 0x",
      "have_fault  ("},
     {"null function", SIGSEGV,
@@ -88,6 +89,27 @@ const std::vector<Expected> faults{
 #endif
     {"abort", SIGABRT, "signal 6 (Aborted), in have_fault at 0x", "::onExecute  ("},
 };
+
+/// Tries in a child process whether an integer division by zero is a fault. On arm64 the result is 0.
+bool is_division_by_zero_a_fault() {
+    const pid_t child = fork();
+    if (child == 0) {
+        std::signal(SIGFPE, SIG_DFL);
+        volatile int zero = 0;
+        _exit(7 / zero);
+    }
+    int status = 0;
+    REQUIRE(waitpid(child, &status, 0) == child);
+    return WIFSIGNALED(status);
+}
+
+/// Returns the faults that this processor has.
+std::vector<Expected> faults() {
+    std::vector<Expected> found = all_faults;
+    if (!is_division_by_zero_a_fault())
+        std::erase_if(found, [](const Expected& fault) { return fault.signal == SIGFPE; });
+    return found;
+}
 
 void check_block(const CommandResult& result, const Expected& expected, const std::string& host,
                  const std::string& component, const std::string& plugin) {
@@ -109,12 +131,12 @@ void check_block(const CommandResult& result, const Expected& expected, const st
 
 TEST_CASE(
     "rtm_host names the RTC that crashes, its callback, plugin, fault and calls, then ends by the signal") {
-    const Expected expected = GENERATE(from_range(faults));
+    const Expected expected = GENERATE(from_range(faults()));
     check_block(run_rtm(expected.fault), expected, "rtm_host", "TankRtc1", "TankRtc.so");
 }
 
 TEST_CASE("opros_host names the component that crashes, its callback, plugin, fault and calls") {
-    const Expected expected = GENERATE(from_range(faults));
+    const Expected expected = GENERATE(from_range(faults()));
     check_block(run_opros(expected.fault), expected, "opros_host", "Tank1", "TankComp.so");
 }
 

@@ -46,7 +46,8 @@ std::string to_upper(std::string_view text) {
 std::string iconv_name(std::string name) {
     if (name.starts_with("X-")) name.erase(0, 2);
     for (const std::string_view prefix : {"WINDOWS-"sv, "MS"sv, "CP-"sv})
-        if (name.size() > prefix.size() && name.starts_with(prefix) && std::isdigit(name[prefix.size()]) != 0)
+        if (name.size() > prefix.size() && name.starts_with(prefix) &&
+            std::isdigit(static_cast<unsigned char>(name[prefix.size()])) != 0)
             name = "CP" + name.substr(prefix.size());
     // Files that declare EUC-KR were written on Windows. Its code page 949 is a superset of EUC-KR.
     for (const char* korean : {"EUC-KR", "EUC_KR", "EUCKR", "KS_C_5601-1987", "KS_C_5601-1989", "KSC5601",
