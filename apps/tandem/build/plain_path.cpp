@@ -59,6 +59,19 @@ void require_conf_path(const fs::path& path) {
     if (name.ends_with(' ')) refuse(name, "a blank at the end", "rtc.conf cannot contain");
 }
 
+void require_conf_type(const std::string& name, const std::string& category, const fs::path& module) {
+    const auto fail = [&](const char* what, const std::string& text, const char* expected) {
+        throw std::runtime_error(fmt::format("{} registers a component type with the {} '{}', which rtc.conf "
+                                             "cannot contain: expected {}",
+                                             text::printable_line(module.string()), what,
+                                             text::printable_line(text), expected));
+    };
+    const auto is_plain = [](char c) { return c < 0 || is_one_of(c, "_-+"); };
+    if (name.empty() || !std::all_of(name.begin(), name.end(), is_plain))
+        fail("name", name, "letters, digits, _, - and +");
+    if (!find_special(category, ":=\\#").empty()) fail("category", category, "no :, =, # and \\");
+}
+
 void require_library(const std::string& library) {
     const char* const others =
         library.starts_with('/') ? "_-+./=,@~ " : "_-+./=,@~"; // CMake quotes whole paths

@@ -17,6 +17,11 @@ void require_idl_path(const std::filesystem::path& path);
 /// Does the same for rtc.conf, whose lists have no quoting: its reader splits a path at a comma.
 void require_conf_path(const std::filesystem::path& path);
 
+/// Throws std::runtime_error, which names the module, if rtc.conf would read the name or the category of its component type as
+/// something else.
+void require_conf_type(const std::string& name, const std::string& category,
+                       const std::filesystem::path& module);
+
 /// Throws std::runtime_error if an argument of the option is not plain: CMake would read a list, a generator expression or
 /// several flags, or a shell a command.
 void require_library(const std::string& library);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/link/component_pair.hpp"
 #include "apps/tandem/build/folder/source_text.hpp"
+#include "apps/tandem/build/plain_path.hpp"
 
 #include "apps/tandem/opros/component_profiles.hpp"
 #include "host/opros/engine/load/load_component.hpp"
@@ -73,7 +74,10 @@ RtcType select_type(const fs::path& module, const std::string& name, double time
     const auto types = probe_rtc_types(module, probe);
     std::vector<std::string> names;
     for (const auto& type : types) {
-        if (type.name == name || (types.size() == 1 && name.empty())) return type;
+        if (type.name == name || (types.size() == 1 && name.empty())) {
+            require_conf_type(type.name, type.category, module);
+            return type;
+        }
         names.push_back(type.name);
     }
     throw std::runtime_error(

@@ -4,6 +4,7 @@
 #include "apps/tandem/link/component_pair.hpp"
 #include "apps/tandem/output/print.hpp"
 #include "apps/tandem/system/commands.hpp"
+#include "apps/tandem/system/staged_folder.hpp"
 #include "host/opros/engine/load/load_component.hpp"
 #include "host/opros/engine/load/plugin_dirs.hpp"
 
@@ -156,14 +157,10 @@ int system_new(const NewSystemOptions& options) {
     const auto parts = find_parts(options);
     require_different_names(parts);
     const std::string application = application_text(parts, link);
-    ImportFolder rtm(options.folder, {}, "rtm");
-    write_file(rtm.path() / "rtc.conf", rtc_conf_text(parts, link, !application.empty()));
-    if (!application.empty()) {
-        ImportFolder opros(options.folder, {}, "opros");
-        write_file(opros.path() / (link + ".xml"), application);
-        opros.keep();
-    }
-    rtm.keep();
+    StagedFolder staged(options.folder);
+    write_file(staged.add_side("rtm") / "rtc.conf", rtc_conf_text(parts, link, !application.empty()));
+    if (!application.empty()) write_file(staged.add_side("opros") / (link + ".xml"), application);
+    staged.publish();
     print_text("written " + options.folder.string() + "\nnext: tandem run " + options.folder.string() + "\n");
     return 0;
 }

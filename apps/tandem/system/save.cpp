@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/tandem/import/import_folder.hpp"
 #include "apps/tandem/output/print.hpp"
 #include "apps/tandem/output/print_note.hpp"
 #include "apps/tandem/system/commands.hpp"
 #include "apps/tandem/system/running_system.hpp"
+#include "apps/tandem/system/staged_folder.hpp"
 
-#include <optional>
 #include <stdexcept>
 
 namespace tandem::command {
@@ -32,36 +31,21 @@ void copy_side(const fs::path& from, const fs::path& to) {
     }
 }
 
-/// Saves into the folder from which the hosts run. Keeps the former files.
-std::vector<std::string> save_in_place(const RunningSystem& system) {
+/// Copies the files from which the hosts run into a new folder, and writes what has changed since.
+std::vector<std::string> save_into(StagedFolder& staged, const RunningSystem& system, bool in_place) {
     std::vector<std::string> left_out;
-    const auto add = [&](const fs::path& file, auto save) {
-        if (file.empty()) return;
-        fs::path former = file;
-        fs::copy_file(file, former += "~", fs::copy_options::overwrite_existing);
-        const auto lines = save(system, file.parent_path().parent_path());
+    const auto add = [&](pid_t host, const char* side, const fs::path& file, auto save) {
+        if (host == 0) return;
+        const fs::path folder = in_place ? staged.path() / side : staged.add_side(side);
+        if (in_place)
+            fs::create_directories(folder);
+        else
+            copy_side(file.parent_path(), folder);
+        const auto lines = save(system, staged.path());
         left_out.insert(left_out.end(), lines.begin(), lines.end());
     };
-    add(system.rtc_conf, save_rtm);
-    add(system.application, save_opros);
-    return left_out;
-}
-
-std::vector<std::string> save_as(const RunningSystem& system, const fs::path& folder) {
-    std::optional<ImportFolder> rtm, opros; // made before anything is written
-    if (system.rtm != 0) rtm.emplace(folder, fs::path(), "rtm");
-    if (system.opros != 0) opros.emplace(folder, fs::path(), "opros");
-    std::vector<std::string> left_out;
-    const auto add = [&](std::optional<ImportFolder>& side, const fs::path& file, auto save) {
-        if (!side) return;
-        copy_side(file.parent_path(), side->path());
-        const auto lines = save(system, side->path().parent_path());
-        left_out.insert(left_out.end(), lines.begin(), lines.end());
-    };
-    add(rtm, system.rtc_conf, save_rtm);
-    add(opros, system.application, save_opros);
-    if (rtm) rtm->keep();
-    if (opros) opros->keep();
+    add(system.rtm, "rtm", system.rtc_conf, save_rtm);
+    add(system.opros, "opros", system.application, save_opros);
     return left_out;
 }
 
@@ -83,7 +67,12 @@ int system_save(const SaveSystemOptions& options) {
     if (in_place && !options.replace)
         throw std::runtime_error("the system runs from " + options.folder.string() +
                                  "; to change its files, use --replace, or name another folder");
-    const auto left_out = in_place ? save_in_place(system) : save_as(system, options.folder);
+    StagedFolder staged(options.folder);
+    const auto left_out = save_into(staged, system, in_place);
+    if (in_place)
+        staged.publish_files();
+    else
+        staged.publish();
     for (const auto& line : left_out) print_note("tandem: not saved: {}\n", line);
     print_text("saved " + options.folder.string() + "\n");
     return 0;

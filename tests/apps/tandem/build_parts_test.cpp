@@ -355,6 +355,16 @@ TEST_CASE("a path is refused only if a reader would take a part of it for its ow
     CHECK_NOTHROW(require_conf_path("/a$b: c;d"));
 }
 
+TEST_CASE("a component type whose name or category rtc.conf would read as something else is refused") {
+    CHECK_NOTHROW(require_conf_type("Arm_2", "Mobile Robot", "/Arm.so"));
+    for (const char* name : {"", "a,b", "a?x=y", "a&b", "a b", "a.b", "a\nmanager.modules.preload: x.so"})
+        CHECK_THROWS_WITH(require_conf_type(name, "c", "/Arm.so"),
+                          Catch::StartsWith("/Arm.so registers a component type with the name '"));
+    for (const char* category : {"a:b", "a=b", "a\nb"})
+        CHECK_THROWS_WITH(require_conf_type("Arm", category, "/Arm.so"),
+                          Catch::StartsWith("/Arm.so registers a component type with the category '"));
+}
+
 TEST_CASE("options of a build that CMake or a shell would read as something else are refused") {
     for (const char* library : {"m", "boost_thread", "/usr/lib/a b.so", "-lm", "stdc++"})
         CHECK_NOTHROW(require_library(library));

@@ -16,7 +16,7 @@ namespace tandem::monitor {
 /// A tick hangs if it is overdue by more than this number of periods and more than this time in ns. The time is long
 /// because a machine without a real-time kernel can stall for a moment. Transition callbacks such as onActivated may
 /// take longer; the hosts also report a hang after 16 s.
-inline constexpr double hanging_periods = 3, hanging_ns = 1e9, hanging_transition_ns = 16e9;
+inline constexpr double hanging_periods = 3, hanging_ns = 0.6e9, hanging_transition_ns = 16e9;
 
 /// Reads the tick counters of hosts (host/rt/tick_page.hpp), without affecting the hosts. [one thread]
 class TickReader {

@@ -4,7 +4,7 @@
 import {makeSvg, number, setAttributes, setClass, setText} from './dom.js';
 import {EmergencyStop} from './emergency.js';
 import {GamepadInput} from './gamepad.js';
-import {MapView} from './shapes/map_view.js';
+import {MapView, headingText} from './shapes/map_view.js';
 import {PlotView, loadPlots} from './plot_view.js';
 import {Stick} from './stick.js';
 import {keyOfPort} from './tables.js';
@@ -144,7 +144,7 @@ export class Chair {
     this.map.place(x, y, heading);
     if (this.whole) this.map.fit(this.path);
     else this.map.follow(x, y, surroundings);
-    setText(find('chair-place'), `x ${x.toFixed(2)} m, y ${y.toFixed(2)} m, heading ${heading.toFixed(0)}°; a square is ${this.map.step} m`);
+    setText(find('chair-place'), `x ${x.toFixed(2)} m, y ${y.toFixed(2)} m, heading ${headingText(heading)}; a square is ${this.map.step} m`);
   }
 
   drawStick(chair) {

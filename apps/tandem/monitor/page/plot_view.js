@@ -4,7 +4,6 @@
 import {align, curveId, labelOf, pointsOf} from './curves.js';
 import {KeyedList, make, number, setAttributes, setClass, setText} from './dom.js';
 
-const height = 240;
 /** Thin lines cost a third: plots of many curves have them. */
 const thick = 1.75, thin = 1, mostThick = 4; // pixels; curves
 const legendPause = 200; // ms between two texts that people can read
@@ -41,7 +40,7 @@ export class PlotView {
     this.resize.observe(this.element);
   }
 
-  size() { return {width: Math.max(220, this.element.clientWidth), height}; }
+  size() { return {width: Math.max(220, this.element.clientWidth), height: this.element.clientHeight}; }
 
   /** Called by the legend's button; set by those who let people remove curves. */
   onremove = null;

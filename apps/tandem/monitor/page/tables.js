@@ -10,8 +10,10 @@ export const keyOfPort = (link, port) => `${link.name}/${port.owner}/${port.name
 
 const otherSide = {first: 'second', second: 'first'};
 
+/** Returns who sends and who receives: models, or the program if a link belongs to no host. */
 export function direction(link, port) {
-  return `${link.sides[port.writer].model} → ${link.sides[otherSide[port.writer]].model}`;
+  const [from, to] = [port.writer, otherSide[port.writer]].map((side) => link.sides[side]), name = ({model, program}) => model === 'unknown' ? program || '–' : model;
+  return from.model === 'unknown' && from.pid === to.pid ? name(from) : `${name(from)} → ${name(to)}`;
 }
 
 /** Writes cells into a row, from column `first`. A cell is a text with a class, or a histogram. */

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Draws hosts, components, ports and edges at the places of a layout.
 import {KeyedList, makeSvg, setAttributes, setClass, setText} from '../dom.js';
-import {describe, detailsOf, edgeState, edgeTextOf, linesOf, portTextOf, threadsOf, widthOf} from './texts.js';
+import {describe, detailsOf, edgeState, edgeTextOf, labelOf, linesOf, portTextOf, threadsOf, widthOf} from './texts.js';
 
 /** Of a graph with more components, only what is in view is drawn; below this scale without what would be too small to read. */
 const mostDrawn = 150, far = 0.3;
@@ -122,13 +122,13 @@ export class Drawing {
 
   createPort() {
     const group = makeSvg('g');
-    group.append(makeSvg('circle', {r: 4.5}), makeSvg('text'), makeSvg('title'));
+    group.append(makeSvg('rect', {height: 24, class: 'hit'}), makeSvg('circle', {r: 4.5}), makeSvg('text'), makeSvg('title'));
     return Object.assign(group, {kind: 'port'});
   }
 
   updatePort(group, port) {
     const place = this.layout.places.get(port.id);
-    const [dot, text, title] = group.children;
+    const [hit, dot, text, title] = group.children;
     group.item = port;
     if (port.listed) setAttributes(group, {'data-port': `${port.listed.component}.${port.listed.name}`});
     this.setButton(group, isPlottable(port) || (this.control && port.listed), port.name);
@@ -136,7 +136,8 @@ export class Drawing {
     setClass(group, `port${state}${port.key && port.key === this.chosen ? ' chosen' : ''}${this.found.has(port.id) ? ' found' : ''}${this.mark(port)}`);
     if (group.place !== place) {
       group.place = place;
-      const left = port.side === 'first';
+      const left = port.side === 'first', width = widthOf(labelOf(port)) + 20;
+      setAttributes(hit, {x: left ? place.x - width + 8 : place.x - 8, y: place.y - 12, width});
       setAttributes(dot, {cx: place.x, cy: place.y});
       setAttributes(text, {x: left ? place.x - 10 : place.x + 10, y: place.y + 4, 'text-anchor': left ? 'end' : 'start'});
     }

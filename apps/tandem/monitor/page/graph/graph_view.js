@@ -90,7 +90,7 @@ export class Graph {
     this.key = topology.key;
     this.width = this.parent.clientWidth;
     try {
-      const layout = await layOut(topology, this.width);
+      const layout = await layOut(topology, this.zoom.room);
       if (this.connector.pressed) this.key = '';
       if (this.key !== topology.key) return; // changed or held meanwhile; another layout follows
       this.failure = '';

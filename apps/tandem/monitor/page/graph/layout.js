@@ -2,6 +2,7 @@
 // Lays out the graph with elkjs, which works in a worker.
 import {boldWidthOf, describe, labelOf, widestStateOf, widthOf} from './texts.js';
 import {hasDetail} from './topology.js';
+import {fittingScale} from './zoom.js';
 
 const row = 24, dot = 8;
 const layerGap = 30, widestGap = 420, mostFitted = 40; // edges: a layout of more takes long
@@ -90,15 +91,17 @@ async function loadElk() {
   return new globalThis.ELK({workerUrl: new URL('../lib/elk-worker.min.js', import.meta.url).href});
 }
 
-let elk;
+const loading = loadElk(); // together with the page: the first state waits for nothing
+loading.catch(() => {}); // layOut() tells why
 
 /**
- * Returns the places of all parts. The gaps between layers fill the width of the page; the graph's width grows with them in
- * proportion.
+ * Returns the places of all parts. A small graph is drawn larger, as far as the page has room. The gaps between layers fill the rest
+ * of its width; the graph's width grows with them in proportion.
  */
-export async function layOut(topology, width) {
-  elk ??= await loadElk();
-  const lay = (gap) => elk.layout(elkGraph(topology, gap, width)), narrow = await lay(layerGap), missing = width - narrow.width - 4;
+export async function layOut(topology, page) {
+  const elk = await loading;
+  const lay = (gap) => elk.layout(elkGraph(topology, gap, page.width)), narrow = await lay(layerGap);
+  const width = page.width / Math.max(1, fittingScale(narrow, page)), missing = width - narrow.width - 4;
   if (missing < 20 || topology.edges.length > mostFitted || topology.edges.length === 0) return placesOf(narrow);
   const wide = await lay(layerGap + missing), slope = (wide.width - narrow.width) / missing;
   return placesOf(slope > 0 ? await lay(Math.min(widestGap, layerGap + missing / slope)) : narrow);

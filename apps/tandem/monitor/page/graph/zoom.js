@@ -4,6 +4,13 @@
 const least = 0.1, most = 3, step = 1.25;
 /** The smallest scale at which labels are easy to read, to which the graph shrinks by itself. */
 const readable = 0.75;
+/** A finger needs ports that are further apart. */
+const touchable = 1;
+/** A small graph grows by itself up to this scale. */
+const largest = 1.4;
+
+/** Returns the scale at which a graph of this size fits into a room. */
+export const fittingScale = ({width, height}, room) => Math.min(largest, room.width / width, room.height / height);
 
 export class Zoom {
   /** `scroller`: the element that scrolls, and contains the `svg`. `onmove`: called when another part of the graph is in view. */
@@ -20,7 +27,8 @@ export class Zoom {
   resize(width, height) {
     Object.assign(this, {width, height});
     if (this.mode === 'whole') this.scale = this.whole;
-    if (this.mode === 'readable') this.scale = Math.max(readable, Math.min(1, (this.scroller.clientWidth - 2) / width));
+    const {room} = this, fitting = Math.max(fittingScale(this, room), Math.min(1, room.width / width));
+    if (this.mode === 'readable') this.scale = Math.max(matchMedia('(pointer: coarse)').matches ? touchable : readable, fitting);
     this.svg.setAttribute('viewBox', `0 0 ${Math.ceil(width)} ${Math.ceil(height)}`);
     this.apply();
   }
@@ -58,7 +66,13 @@ export class Zoom {
     if (middle < 0 || middle > innerHeight) scrollBy(0, middle - innerHeight / 2); // on a phone, the page scrolls
   }
 
-  get whole() { return Math.min(1, (this.scroller.clientWidth - 2) / this.width, (this.scroller.clientHeight - 2) / this.height); }
+  /** The room in which the graph may be drawn without scrolling. */
+  get room() {
+    const {scroller} = this, high = parseFloat(getComputedStyle(scroller).maxHeight) || innerHeight;
+    return {width: scroller.clientWidth - 2, height: high - 2};
+  }
+
+  get whole() { return fittingScale(this, this.room); }
 
   /** Shows the whole graph. */
   fit() {

@@ -14,6 +14,9 @@ function multiples(from, side, step) {
   return Array.from({length: Math.min(Math.max(count, 0), 21)}, (_, i) => (first + i) * step);
 }
 
+/** Returns an angle in degrees as people say it: from -180° to 180°, however often the robot has turned. */
+export const headingText = (degrees) => `${(degrees - 360 * Math.round(degrees / 360)).toFixed(0)}°`;
+
 export class MapView {
   /** `svg`: gets the map. `marker`: an element that is drawn at the pose, looking to the right. */
   constructor(svg, marker) {

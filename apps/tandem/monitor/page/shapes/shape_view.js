@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shows what a chosen port is about, above its curves: a picture, distances around a sensor, or the path of a pose.
 import {make, makeSvg, number, setAttributes, setText} from '../dom.js';
-import {MapView} from './map_view.js';
+import {MapView, headingText} from './map_view.js';
 import {PictureView} from './pictures.js';
 import {pathOf, pointsAround, poseIn, rangesIn} from './shapes.js';
 
@@ -69,7 +69,7 @@ export class ShapeView {
     this.map.drawDots([]);
     this.map.drawTrace([...points, [x, y]]);
     this.drawMarker(x, y, heading);
-    this.describe(`Path of ${name}`, `x ${number(x)}, y ${number(y)}${Number.isFinite(heading) ? `, heading ${(heading - 360 * Math.round(heading / 360)).toFixed(0)}°` : ''}`);
+    this.describe(`Path of ${name}`, `x ${number(x)}, y ${number(y)}${Number.isFinite(heading) ? `, heading ${headingText(heading)}` : ''}`);
   }
 
   drawMarker(x, y, heading) {

@@ -35,7 +35,7 @@ const click = (name) => page.getByRole("button", { name, exact: true }).click();
 /** Waits until an element is there, and asks for the components again: the RTCs of OPRoS components appear after their link. */
 async function untilAsked(locator) {
   while (await locator.count() === 0) {
-    await click("Ask again");
+    await click("Refresh");
     await page.waitForTimeout(1000); // the test has a time limit
   }
 }
