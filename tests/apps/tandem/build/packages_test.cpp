@@ -77,8 +77,11 @@ TEST_CASE("a remedy that the build already uses is not advised again") {
     CHECK_THAT(
         remedy(missing("pigpiod_if2.h")),
         Catch::StartsWith("pigpiod_if2.h belongs to the C library of pigpio, which Debian does not package"));
+    CHECK_THAT(remedy(missing("rtcpcl/pc_traits.h")),
+               Catch::StartsWith("rtcpcl/pc_traits.h belongs to RTC:PCL"));
+    CHECK_THAT(remedy(missing("Kinect.h")), Catch::StartsWith("Kinect.h is a Windows header"));
     CHECK(remedy(missing("frames.hpp")) == "if kdl/frames.hpp is meant: apt install liborocos-kdl-dev");
-    CHECK(remedy(undefined("dWorldCreate")) == "apt install libode-dev, and add --pkg-config ode");
+    CHECK(remedy(undefined("dWorldCreate")) == "apt install libode-dev");
     CHECK_THAT(remedy(missing("MySVC_impl.h")), Catch::StartsWith("RTCBuilder makes it from My.idl"));
     CHECK(remedy("CMake Error: pkg-config knows no module ode; install") == "apt install libode-dev");
     root.write("var/lib/dpkg/info/libode-dev:amd64.list", "/.\n/usr/include/ode/ode.h\n");
