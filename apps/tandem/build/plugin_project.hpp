@@ -3,8 +3,8 @@
 #pragma once
 
 #include "apps/tandem/build/include_scan.hpp"
-#include "apps/tandem/build/missing_libraries.hpp"
 #include "apps/tandem/build/packages/installed_library.hpp"
+#include "apps/tandem/build/packages/missing_libraries.hpp"
 #include "apps/tandem/build/plugin_build.hpp"
 #include "apps/tandem/build/select_sources.hpp"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What `tandem opros build` and `tandem rtm build` know about packages of Debian, and use of those installed.
 #include "apps/tandem/build/include_scan.hpp"
-#include "apps/tandem/build/missing_libraries.hpp"
 #include "apps/tandem/build/packages/header_packages.hpp"
 #include "apps/tandem/build/packages/installed_library.hpp"
+#include "apps/tandem/build/packages/missing_libraries.hpp"
 #include "apps/tandem/build/project/cmake_projects.hpp"
 #include "apps/tandem/build/remedy.hpp"
 #include "apps/tandem/build/select_sources.hpp"
