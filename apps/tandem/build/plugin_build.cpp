@@ -10,6 +10,7 @@
 #include "apps/tandem/build/missing_names.hpp"
 #include "apps/tandem/build/packages/header_packages.hpp"
 #include "apps/tandem/build/packages/installed_library.hpp"
+#include "apps/tandem/build/packages/offer_package.hpp"
 #include "apps/tandem/build/plain_path.hpp"
 #include "apps/tandem/build/plugin_project.hpp"
 #include "apps/tandem/build/project/cmake_package.hpp"
@@ -81,7 +82,7 @@ std::string advice(const std::string& error, const Plugin& plugin, const PluginB
         text = "OpenCV 4 no longer has " + name + ": use OpenCV's C++ API";
     if (auto package = package_of_neighbours(plugin.neighbours, error); !package.empty())
         text = std::move(package);
-    return text.empty() ? "" : "; " + text;
+    return text;
 }
 
 // Runs one step of CMake. Returns its output if it failed.
@@ -107,15 +108,25 @@ std::optional<std::string> run_cmake(const std::vector<std::string>& command, do
     return result.output;
 }
 
+/// A failed build that may succeed with a Debian package.
+struct MissingPackage : std::runtime_error {
+    MissingPackage(const std::string& message, std::string name)
+        : std::runtime_error(message), package(std::move(name)) {}
+    std::string package;
+};
+
 // Prints the output of a failed step. The exception repeats the first error with advice, so that it is the
 // last line on the terminal.
 [[noreturn]] void fail(const std::string& output, const Plugin& plugin, const PluginBuildOptions& options,
                        const std::string& what) {
     print_text(output);
-    const std::string error = first_error(output);
-    throw std::runtime_error("component " + plugin.name + " " + what + ": " + error +
-                             advice(error, plugin, options) + " (the compiler's output is above" +
-                             (plugin.problem.empty() ? "" : "; " + plugin.problem) + ")");
+    const std::string error = first_error(output), remedy = advice(error, plugin, options);
+    const auto message = "component " + plugin.name + " " + what + ": " + error +
+                         (remedy.empty() ? "" : "; " + remedy) + " (the compiler's output is above" +
+                         (plugin.problem.empty() ? "" : "; " + plugin.problem) + ")";
+    if (auto package = package_to_install(remedy); !package.empty())
+        throw MissingPackage(message, std::move(package));
+    throw std::runtime_error(message);
 }
 
 // Returns the files of the checkout that give the header: copies of it, or else IDL files that it is made from.
@@ -264,20 +275,11 @@ void require_plain_names(const PluginBuildOptions& options, const fs::path& outp
     for (const auto& definition : options.definitions) require_definition(definition);
 }
 
-} // namespace
-
-void require_folder(const fs::path& folder) {
-    if (!fs::is_directory(folder))
-        throw std::runtime_error(folder.string() +
-                                 " is not a folder: give the folder with the component's sources");
-}
-
 // CMake configures each time. A second build in a kept folder compiles only changed files.
 // Everything is made in the build folder; the output folder is touched only after the build has succeeded.
-fs::path build_plugin(const std::string& model, const std::string& name, const EntryPoint& entry_point,
-                      const PluginBuildOptions& options, const fs::path& default_folder,
-                      CMakeProjects& projects) {
-    for (const auto& dir : options.include_dirs) require_folder(dir);
+fs::path build_once(const std::string& model, const std::string& name, const EntryPoint& entry_point,
+                    const PluginBuildOptions& options, const fs::path& default_folder,
+                    CMakeProjects& projects) {
     const fs::path output =
         fs::absolute(options.output.empty() ? default_folder : options.output).lexically_normal();
     require_plain_names(options, output);
@@ -311,6 +313,27 @@ fs::path build_plugin(const std::string& model, const std::string& name, const E
                               fs::copy_options::overwrite_existing);
             }
     return library;
+}
+
+} // namespace
+
+void require_folder(const fs::path& folder) {
+    if (!fs::is_directory(folder))
+        throw std::runtime_error(folder.string() +
+                                 " is not a folder: give the folder with the component's sources");
+}
+
+fs::path build_plugin(const std::string& model, const std::string& name, const EntryPoint& entry_point,
+                      const PluginBuildOptions& options, const fs::path& default_folder,
+                      CMakeProjects& projects) {
+    for (const auto& dir : options.include_dirs) require_folder(dir);
+    try {
+        return build_once(model, name, entry_point, options, default_folder, projects);
+    } catch (const MissingPackage& missing) {
+        if (!offer_package(missing.package)) throw;
+    }
+    CMakeProjects again(projects_folder(options), options.timeout_s); // may now find the package
+    return build_plugin(model, name, entry_point, options, default_folder, again);
 }
 
 } // namespace tandem::command
