@@ -110,12 +110,15 @@ class Scanner {
             result.pkg_config.insert(std::string(package->pkg_config));
     }
 
-    // Headers of OpenRTM are in folders with a version, openrtm-1.1/rtm/RTC.h; those of Windows users have backslashes.
+    // Headers of OpenRTM are in folders with a version, openrtm-1.1/rtm/RTC.h; those of Windows users have backslashes,
+    // and drives: C:\Eigen\include\Eigen\Core.
     void find_otherwise(const std::string& name, const fs::path& place) {
-        static const std::regex versioned("(?:openrtm|rtm|coil)-[0-9.]+/(.+)");
+        static const std::regex on_drive("[A-Za-z]:/(?:.*/include/|.*/)?(.+)"),
+            versioned("(?:openrtm|rtm|coil)-[0-9.]+/(.+)");
         std::smatch found;
         std::string meant = to_posix_path(name);
-        if (std::regex_match(meant, found, versioned)) meant = found[1].str();
+        for (const auto* form : {&on_drive, &versioned})
+            if (const std::string path = meant; std::regex_match(path, found, *form)) meant = found[1].str();
         if (auto skeleton = skeleton_without_services(name); !skeleton.empty()) meant = std::move(skeleton);
         if (meant == name) return find_idl(name);
         result.forwards[name] = meant;

@@ -25,12 +25,14 @@ std::map<std::string, std::string> missing_names(const std::string& output) {
         {"UINT", "typedef unsigned int UINT;"},
         {"TRUE", "#define TRUE 1"},
         {"FALSE", "#define FALSE 0"},
+        {"Sleep", "static inline void Sleep(unsigned int milliseconds) { usleep(1000 * milliseconds); }"},
     };
     std::map<std::string, std::string> missing;
     std::istringstream lines(output);
     for (std::string line; std::getline(lines, line);) {
         if (const auto known = declarations.find(unknown_name(line)); known != declarations.end())
             missing.insert(*known);
+        if (missing.count("Sleep") != 0) missing.emplace("<unistd.h>", "#include <unistd.h>"); // usleep()
         if (line.find("did you forget to") == std::string::npos) continue; // advice of g++
         if (const auto header = between(line, "#include <", ">"); !header.empty())
             missing.emplace("<" + header + ">", "#include <" + header + ">");
@@ -47,7 +49,7 @@ bool is_windows_name(const std::string& name) {
               "HMODULE HRESULT HWND InitializeCriticalSection INVALID_HANDLE_VALUE kbhit LARGE_INTEGER "
               "LoadLibrary LoadLibraryA LoadLibraryW LPCSTR LPCTSTR LPCWSTR LPSTR LPTSTR LPVOID LPWSTR "
               "MessageBox MultiByteToWideChar OutputDebugString PurgeComm QueryPerformanceCounter "
-              "QueryPerformanceFrequency ReleaseMutex SetCommState SetCommTimeouts SetEvent Sleep SOCKET "
+              "QueryPerformanceFrequency ReleaseMutex SetCommState SetCommTimeouts SetEvent SOCKET "
               "TCHAR timeGetTime WaitForSingleObject WideCharToMultiByte WINAPI WSADATA WSAStartup "
               "ZeroMemory");
     return names.count(name) != 0;

@@ -7,29 +7,25 @@
 #include "apps/tandem/build/folder/project_files.hpp"
 #include "apps/tandem/build/folder/source_text.hpp"
 #include "apps/tandem/build/include_scan.hpp"
-#include "apps/tandem/build/missing_libraries.hpp"
 #include "apps/tandem/build/missing_names.hpp"
 #include "apps/tandem/build/packages/header_packages.hpp"
 #include "apps/tandem/build/packages/installed_library.hpp"
+#include "apps/tandem/build/packages/offer_package.hpp"
 #include "apps/tandem/build/plain_path.hpp"
+#include "apps/tandem/build/plugin_project.hpp"
 #include "apps/tandem/build/project/cmake_package.hpp"
 #include "apps/tandem/build/project/cmake_projects.hpp"
 #include "apps/tandem/build/remedy.hpp"
 #include "apps/tandem/build/replace_file.hpp"
-#include "apps/tandem/build/select_sources.hpp"
 #include "apps/tandem/output/print.hpp"
 #include "apps/tandem/output/print_note.hpp"
 #include "host/process/run_command.hpp"
-#include "host/text/quote.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <map>
 #include <optional>
-#include <set>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -40,129 +36,6 @@ namespace tandem::command {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The plugin to build: the component of a model in a folder.
-struct Plugin {
-    std::string model, name, entry_function;
-    SelectedSources sources;
-    std::vector<std::string> definitions; ///< from the component's project files
-    std::string problem;                  ///< of the component's CMake project; "": none
-    NeighbourHeaders neighbours;
-    IncludeScan includes;
-    std::map<fs::path, InstalledLibrary>
-        installed; ///< by the include folder that the compiler does not search
-    bool needs_cv_h =
-        false; ///< uses OpenCV's C API through headers that contained it in OpenCV 2 and 3 but not in 4
-    std::map<std::string, std::string> missing_names{}; ///< with their declarations
-    MissingLibraries linked{};                          ///< that the linker has missed
-};
-
-constexpr char names_header[] = "tandem_missing_names.h"; // beside the forwarding headers
-
-// Returns a keyword of the CMake function with its values; "" without values.
-std::string cmake_argument(const char* keyword, const std::vector<std::string>& values) {
-    if (values.empty()) return "";
-    std::string text = std::string("\n  ") + keyword;
-    for (const auto& value : values) text += " " + text::quote_cmake(value);
-    return text;
-}
-
-std::vector<std::string> absolute_names(const std::vector<fs::path>& files) {
-    std::vector<std::string> names;
-    names.reserve(files.size());
-    for (const auto& file : files) names.push_back(fs::absolute(file).string());
-    return names;
-}
-
-// Enables C only if needed, because CMake tests each compiler for half a second.
-const char* languages(const std::vector<fs::path>& sources) {
-    const auto is_c = [](const fs::path& source) { return source.extension() == ".c"; };
-    return std::any_of(sources.begin(), sources.end(), is_c) ? "C CXX" : "CXX";
-}
-
-// Returns the pkg-config modules that the component's includes ask for.
-std::set<std::string> used_modules(const Plugin& plugin) {
-    auto modules = plugin.includes.pkg_config;
-    modules.insert(plugin.linked.modules.begin(), plugin.linked.modules.end());
-    for (const auto& [dir, library] : plugin.installed)
-        if (!library.pkg_config.empty()) modules.insert(library.pkg_config);
-    return modules;
-}
-
-std::vector<fs::path> include_dirs(const Plugin& plugin, const PluginBuildOptions& options) {
-    std::vector<fs::path> dirs(options.include_dirs.begin(), options.include_dirs.end());
-    const auto& of_project = plugin.sources.target.include_dirs;
-    dirs.insert(dirs.end(), of_project.begin(), of_project.end());
-    return dirs;
-}
-
-// Returns options for the C++ sources: those of the component's project, headers to include first, and folders of
-// installed libraries. These come after all other folders, because a header in one must not hide another one.
-std::string compile_options(const Plugin& plugin) {
-    auto options = plugin.sources.target.options;
-    if (plugin.needs_cv_h) options.emplace_back("SHELL:-include cv.h -include highgui.h");
-    if (!plugin.missing_names.empty()) options.push_back(std::string("SHELL:-include ") + names_header);
-    std::string text;
-    for (const auto& option : options)
-        text +=
-            "add_compile_options(" + text::quote_cmake("$<$<COMPILE_LANGUAGE:CXX>:" + option + ">") + ")\n";
-    for (const auto& [dir, library] : plugin.installed)
-        text += "add_compile_options(" + text::quote_cmake("SHELL:-idirafter " + dir.string()) + ")\n";
-    return text;
-}
-
-// Components are older than C++17, which removed exception specifications. Our headers need C++14.
-int standard_of(const Plugin& plugin, const PluginBuildOptions& options) {
-    return options.standard != 0 ? options.standard : std::max(14, plugin.sources.target.standard);
-}
-
-// Returns the libraries to link. Projects also name libraries that their sources do not need here.
-std::string libraries(const Plugin& plugin, const PluginBuildOptions& options) {
-    const auto& target = plugin.sources.target;
-    std::vector<std::string> files = options.libraries,
-                             names(plugin.linked.names.begin(), plugin.linked.names.end());
-    for (const auto& library : target.libraries) (library[0] == '/' ? files : names).push_back(library);
-    for (const auto& [dir, library] : plugin.installed)
-        for (const auto& file : library.libraries) files.push_back(file.string());
-    return cmake_argument("LIBRARIES", files) + cmake_argument("LIBRARIES_IF_FOUND", names) +
-           cmake_argument("LIBRARY_DIRS", absolute_names(target.library_dirs));
-}
-
-// A component with copies of a library's headers, for example of OpenCV 2, is compiled with those of the installed
-// version, because the functions of the copies are not there.
-std::string headers_first(const Plugin& plugin) {
-    const auto& modules = plugin.linked.modules;
-    if (modules.empty()) return "";
-    return fmt::format("find_package(PkgConfig REQUIRED)\n"
-                       "pkg_check_modules(LINKED QUIET {})\n"
-                       "target_include_directories({} BEFORE PRIVATE ${{LINKED_INCLUDE_DIRS}})\n",
-                       fmt::join(modules, " "), plugin.name);
-}
-
-/// Returns the CMakeLists.txt that builds the plugin in the folder `build`. `forwards`: folder of the
-/// forwarding headers.
-/// Paths are absolute, because the CMakeLists.txt is in the build folder.
-std::string cmake_project(const Plugin& plugin, const PluginBuildOptions& options, const fs::path& build,
-                          const fs::path& forwards) {
-    const auto modules = used_modules(plugin);
-    // Definitions from the command line come last, because the compiler uses the last definition of a name.
-    std::vector<std::string> definitions = plugin.definitions;
-    definitions.insert(definitions.end(), options.definitions.begin(), options.definitions.end());
-    const bool rtm = plugin.model == "rtm";
-    return std::string("cmake_minimum_required(VERSION 3.16)\nproject(component ") +
-           languages(plugin.sources.sources) + ")\nfind_package(Tandem REQUIRED COMPONENTS " + plugin.model +
-           ")\n" + compile_options(plugin) + "set(CMAKE_LIBRARY_OUTPUT_DIRECTORY " +
-           text::quote_cmake((build / "made").string()) + ")\ntandem_add_" + plugin.model + "_component(" +
-           plugin.name + "\n  FOLDER " + text::quote_cmake(fs::absolute(options.folder).string()) +
-           cmake_argument("CANDIDATES", absolute_names(plugin.sources.sources)) +
-           (rtm ? cmake_argument("MORE_IDL", absolute_names(plugin.includes.idl_files)) : "") +
-           cmake_argument("INCLUDE_DIRS", absolute_names(include_dirs(plugin, options))) +
-           cmake_argument("DEFINITIONS", definitions) + libraries(plugin, options) +
-           cmake_argument("PKG_CONFIG", options.pkg_config) +
-           cmake_argument("PKG_CONFIG_IF_FOUND", {modules.begin(), modules.end()}) +
-           cmake_argument("FORWARDS", {forwards.string()}) +
-           fmt::format("\n  CXX_STANDARD {})\n", standard_of(plugin, options)) + headers_first(plugin);
-}
 
 std::vector<fs::path> checkout_files(const fs::path& folder) {
     const auto checkout = find_checkout(folder);
@@ -209,7 +82,7 @@ std::string advice(const std::string& error, const Plugin& plugin, const PluginB
         text = "OpenCV 4 no longer has " + name + ": use OpenCV's C++ API";
     if (auto package = package_of_neighbours(plugin.neighbours, error); !package.empty())
         text = std::move(package);
-    return text.empty() ? "" : "; " + text;
+    return text;
 }
 
 // Runs one step of CMake. Returns its output if it failed.
@@ -235,15 +108,25 @@ std::optional<std::string> run_cmake(const std::vector<std::string>& command, do
     return result.output;
 }
 
+/// A failed build that may succeed with a Debian package.
+struct MissingPackage : std::runtime_error {
+    MissingPackage(const std::string& message, std::string name)
+        : std::runtime_error(message), package(std::move(name)) {}
+    std::string package;
+};
+
 // Prints the output of a failed step. The exception repeats the first error with advice, so that it is the
 // last line on the terminal.
 [[noreturn]] void fail(const std::string& output, const Plugin& plugin, const PluginBuildOptions& options,
                        const std::string& what) {
     print_text(output);
-    const std::string error = first_error(output);
-    throw std::runtime_error("component " + plugin.name + " " + what + ": " + error +
-                             advice(error, plugin, options) + " (the compiler's output is above" +
-                             (plugin.problem.empty() ? "" : "; " + plugin.problem) + ")");
+    const std::string error = first_error(output), remedy = advice(error, plugin, options);
+    const auto message = "component " + plugin.name + " " + what + ": " + error +
+                         (remedy.empty() ? "" : "; " + remedy) + " (the compiler's output is above" +
+                         (plugin.problem.empty() ? "" : "; " + plugin.problem) + ")";
+    if (auto package = package_to_install(remedy); !package.empty())
+        throw MissingPackage(message, std::move(package));
+    throw std::runtime_error(message);
 }
 
 // Returns the files of the checkout that give the header: copies of it, or else IDL files that it is made from.
@@ -392,20 +275,11 @@ void require_plain_names(const PluginBuildOptions& options, const fs::path& outp
     for (const auto& definition : options.definitions) require_definition(definition);
 }
 
-} // namespace
-
-void require_folder(const fs::path& folder) {
-    if (!fs::is_directory(folder))
-        throw std::runtime_error(folder.string() +
-                                 " is not a folder: give the folder with the component's sources");
-}
-
 // CMake configures each time. A second build in a kept folder compiles only changed files.
 // Everything is made in the build folder; the output folder is touched only after the build has succeeded.
-fs::path build_plugin(const std::string& model, const std::string& name, const EntryPoint& entry_point,
-                      const PluginBuildOptions& options, const fs::path& default_folder,
-                      CMakeProjects& projects) {
-    for (const auto& dir : options.include_dirs) require_folder(dir);
+fs::path build_once(const std::string& model, const std::string& name, const EntryPoint& entry_point,
+                    const PluginBuildOptions& options, const fs::path& default_folder,
+                    CMakeProjects& projects) {
     const fs::path output =
         fs::absolute(options.output.empty() ? default_folder : options.output).lexically_normal();
     require_plain_names(options, output);
@@ -439,6 +313,27 @@ fs::path build_plugin(const std::string& model, const std::string& name, const E
                               fs::copy_options::overwrite_existing);
             }
     return library;
+}
+
+} // namespace
+
+void require_folder(const fs::path& folder) {
+    if (!fs::is_directory(folder))
+        throw std::runtime_error(folder.string() +
+                                 " is not a folder: give the folder with the component's sources");
+}
+
+fs::path build_plugin(const std::string& model, const std::string& name, const EntryPoint& entry_point,
+                      const PluginBuildOptions& options, const fs::path& default_folder,
+                      CMakeProjects& projects) {
+    for (const auto& dir : options.include_dirs) require_folder(dir);
+    try {
+        return build_once(model, name, entry_point, options, default_folder, projects);
+    } catch (const MissingPackage& missing) {
+        if (!offer_package(missing.package)) throw;
+    }
+    CMakeProjects again(projects_folder(options), options.timeout_s); // may now find the package
+    return build_plugin(model, name, entry_point, options, default_folder, again);
 }
 
 } // namespace tandem::command

@@ -155,10 +155,9 @@ std::string for_symbol(const std::string& symbol, const BuildFacts& facts) {
     const auto& used = module.empty() ? facts.libraries : facts.pkg_config;
     const std::string name = module.empty() ? found->library : module;
     const auto package = module.empty() ? find_package_of_library(name) : find_package_of_module(name);
-    std::string option = (module.empty() ? "-l " : "--pkg-config ") + name;
-    if (!package.empty() && !is_installed(package, facts))
-        return fmt::format("apt install {}, and add {}", package, option);
-    if (std::find(used.begin(), used.end(), name) == used.end()) return option;
+    if (!package.empty() && !is_installed(package, facts)) return fmt::format("apt install {}", package);
+    if (std::find(used.begin(), used.end(), name) == used.end())
+        return (module.empty() ? "-l " : "--pkg-config ") + name;
     return fmt::format("{} is used already and does not define it: {}", name, unknown);
 }
 
@@ -194,6 +193,11 @@ std::string find_remedy(const std::string& error, const BuildFacts& facts) {
     if (error.find("std::exception::exception(const char") != std::string::npos)
         return "only Visual C++ has std::exception with a text: throw std::runtime_error";
     return "";
+}
+
+std::string package_to_install(const std::string& remedy) {
+    const std::string begin = "apt install ";
+    return remedy.starts_with(begin) ? between(remedy + ":", begin, ":") : "";
 }
 
 std::string dropped_by_opencv(const std::string& error) {

@@ -18,6 +18,9 @@ struct BuildFacts {
 /// component with the missing header or library; "" if there is none. Advises nothing that the build has used.
 std::string find_remedy(const std::string& error, const BuildFacts& facts);
 
+/// Returns the Debian package that the remedy installs; "" if it is another remedy.
+std::string package_to_install(const std::string& remedy);
+
 /// Returns the name of OpenCV's C API that the compiler does not know; "" for errors about other names.
 std::string dropped_by_opencv(const std::string& error);
 

@@ -96,6 +96,14 @@ const char* origin_outside_debian(const std::string& header) {
         {"pigpio", "the C library of pigpio"}, // libpigpiod-if-dev includes pigpio.h, which no package has
         {"mc_control/", "mc_rtc"},
         {"mc_rtc/", "mc_rtc"},
+        {"rtcpcl/", "RTC:PCL of gbiggs"},
+        {"rtmdds/", "RTM:DDS of gbiggs"},
+        {"ypspur", "YP-Spur"},
+        {"stage.hh", "Stage of the Player project"},
+        {"openvr", "OpenVR of Valve"},
+        {"k4a/", "the Azure Kinect SDK of Microsoft"},
+        {"mclmcr", "the MATLAB Runtime"},
+        {"mclcppclass", "the MATLAB Runtime"},
     };
     for (const auto& [begin, origin] : origins)
         if (header.rfind(begin, 0) == 0) return origin;
@@ -104,12 +112,12 @@ const char* origin_outside_debian(const std::string& header) {
 
 bool is_windows_header(const std::string& header) {
     static const std::set<std::string> names{
-        "windows.h",  "winsock.h", "winsock2.h", "ws2tcpip.h", "windef.h",   "winbase.h", "mmsystem.h",
-        "conio.h",    "tchar.h",   "afx.h",      "afxwin.h",   "afxext.h",   "afxcmn.h",  "afxdisp.h",
-        "afxole.h",   "atlbase.h", "atlstr.h",   "comdef.h",   "objbase.h",  "process.h", "direct.h",
-        "io.h",       "dinput.h",  "d3d9.h",     "dshow.h",    "vfw.h",      "xinput.h",  "setupapi.h",
-        "hidsdi.h",   "crtdbg.h",  "sapi.h",     "initguid.h", "shellapi.h", "shlobj.h",  "commctrl.h",
-        "richedit.h", "mmreg.h",   "dsound.h",   "targetver.h"};
+        "windows.h",  "winsock.h", "winsock2.h", "ws2tcpip.h",  "windef.h",   "winbase.h", "mmsystem.h",
+        "conio.h",    "tchar.h",   "afx.h",      "afxwin.h",    "afxext.h",   "afxcmn.h",  "afxdisp.h",
+        "afxole.h",   "atlbase.h", "atlstr.h",   "comdef.h",    "objbase.h",  "process.h", "direct.h",
+        "io.h",       "dinput.h",  "d3d9.h",     "dshow.h",     "vfw.h",      "xinput.h",  "setupapi.h",
+        "hidsdi.h",   "crtdbg.h",  "sapi.h",     "initguid.h",  "shellapi.h", "shlobj.h",  "commctrl.h",
+        "richedit.h", "mmreg.h",   "dsound.h",   "targetver.h", "kinect.h",   "nuiapi.h"};
     return names.count(to_lower(header)) != 0 || header.starts_with("progid:"); // of #import
 }
 

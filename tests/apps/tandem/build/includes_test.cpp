@@ -41,6 +41,23 @@ TEST_CASE("headers with a version of OpenRTM in their path, or backslashes, are 
     CHECK(text_of(written / "coil-2.0/coil/Time.h") == "#include <coil/Time.h>\n");
 }
 
+TEST_CASE("a header on a drive of Windows is the one below the last folder named include, or else the one of "
+          "its name") {
+    const Folder folder;
+    folder.write("Arm/Arm.cpp", "#include \"C:\\Program Files (x86)/Eigen\\include/eigen3/Eigen/Core\"\n"
+                                "#include \"D:\\work\\Arm\\Units.h\"\n"
+                                "#include <C:/OpenRTM/include/coil-1.1/coil/Time.h>\n");
+    folder.write("Arm/parts/Units.h", "");
+    const auto scan = scan_includes(folder.path() / "Arm", {folder.path() / "Arm/Arm.cpp"}, {});
+    CHECK(scan.forwards ==
+          std::map<std::string, std::string>{
+              {"C:\\Program Files (x86)/Eigen\\include/eigen3/Eigen/Core", "eigen3/Eigen/Core"},
+              {"D:\\work\\Arm\\Units.h", "Units.h"},
+              {"Units.h", folder.path() / "Arm/parts/Units.h"},
+              {"C:/OpenRTM/include/coil-1.1/coil/Time.h", "coil/Time.h"}});
+    CHECK(scan.pkg_config == std::set<std::string>{"eigen3"});
+}
+
 TEST_CASE("a neighbour of a header may be the IDL file that it is made from") {
     const Folder folder;
     folder.write("Arm/Arm.cpp", "#include <hand/idl/Grip.hh>\n#include \"PalmStub.h\"\n");

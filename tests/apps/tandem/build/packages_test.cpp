@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What `tandem opros build` and `tandem rtm build` know about packages of Debian, and use of those installed.
 #include "apps/tandem/build/include_scan.hpp"
-#include "apps/tandem/build/missing_libraries.hpp"
 #include "apps/tandem/build/packages/header_packages.hpp"
 #include "apps/tandem/build/packages/installed_library.hpp"
+#include "apps/tandem/build/packages/missing_libraries.hpp"
 #include "apps/tandem/build/project/cmake_projects.hpp"
 #include "apps/tandem/build/remedy.hpp"
 #include "apps/tandem/build/select_sources.hpp"
@@ -77,8 +77,11 @@ TEST_CASE("a remedy that the build already uses is not advised again") {
     CHECK_THAT(
         remedy(missing("pigpiod_if2.h")),
         Catch::StartsWith("pigpiod_if2.h belongs to the C library of pigpio, which Debian does not package"));
+    CHECK_THAT(remedy(missing("rtcpcl/pc_traits.h")),
+               Catch::StartsWith("rtcpcl/pc_traits.h belongs to RTC:PCL"));
+    CHECK_THAT(remedy(missing("Kinect.h")), Catch::StartsWith("Kinect.h is a Windows header"));
     CHECK(remedy(missing("frames.hpp")) == "if kdl/frames.hpp is meant: apt install liborocos-kdl-dev");
-    CHECK(remedy(undefined("dWorldCreate")) == "apt install libode-dev, and add --pkg-config ode");
+    CHECK(remedy(undefined("dWorldCreate")) == "apt install libode-dev");
     CHECK_THAT(remedy(missing("MySVC_impl.h")), Catch::StartsWith("RTCBuilder makes it from My.idl"));
     CHECK(remedy("CMake Error: pkg-config knows no module ode; install") == "apt install libode-dev");
     root.write("var/lib/dpkg/info/libode-dev:amd64.list", "/.\n/usr/include/ode/ode.h\n");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/tandem/build/missing_libraries.hpp"
+#include "apps/tandem/build/packages/missing_libraries.hpp"
 
 #include "apps/tandem/build/first_error.hpp"
 #include "apps/tandem/build/packages/header_packages.hpp"

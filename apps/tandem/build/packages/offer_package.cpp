@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/build/packages/offer_package.hpp"
+
+#include "apps/tandem/output/print_note.hpp"
+#include "host/process/child_process.hpp"
+
+#include <cerrno>
+#include <chrono>
+#include <iostream>
+#include <system_error>
+#include <unistd.h>
+#include <utility>
+#include <vector>
+
+namespace tandem::command {
+namespace {
+
+// The child stays in the foreground of the terminal: sudo and apt-get may ask there, and Ctrl-C reaches them.
+bool run_in_terminal(std::vector<std::string> words) {
+    std::vector<char*> arguments;
+    for (auto& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    const pid_t child = fork();
+    if (child < 0) throw std::system_error(errno, std::generic_category(), words[0]);
+    if (child == 0) {
+        execvp(arguments[0], arguments.data());
+        _exit(127);
+    }
+    const auto ended = process::ChildProcess(child).wait(std::chrono::hours(1));
+    return ended && ended->success();
+}
+
+} // namespace
+
+bool offer_package(const std::string& package) {
+    if (isatty(STDIN_FILENO) == 0 || isatty(STDERR_FILENO) == 0) return false;
+    std::vector<std::string> command{"apt-get", "install", "--yes", package};
+    if (geteuid() != 0) command.insert(command.begin(), "sudo");
+    print_note("tandem: the Debian package {} is not installed; install it now ({}apt-get install)? [y/N] ",
+               package, geteuid() != 0 ? "sudo " : "");
+    std::string answer;
+    std::getline(std::cin, answer);
+    return (answer == "y" || answer == "Y" || answer == "yes") && run_in_terminal(std::move(command));
+}
+
+} // namespace tandem::command
