@@ -66,8 +66,10 @@ int allocate(int fd, std::uint64_t offset, std::uint64_t bytes) {
 
 void check_link_name(const std::string& link) {
     constexpr auto allowed = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-";
-    if (!link.empty() && link.size() <= 64 && link.find_first_not_of(allowed) == std::string::npos) return;
-    throw Error("link name '" + link + "': 1 to 64 characters of A-Z a-z 0-9 _ - expected");
+    if (!link.empty() && link.size() <= 64 && !link.starts_with('-') &&
+        link.find_first_not_of(allowed) == std::string::npos)
+        return;
+    throw Error("link name '" + link + "': expected 1 to 64 characters of A-Z a-z 0-9 _ -, the first not -");
 }
 
 std::string file_prefix(const std::string& link) { return "tandem." + link + "."; }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/import/import_folder.hpp"
 
-#include <algorithm>
-#include <cctype>
 #include <stdexcept>
 #include <string>
 
@@ -26,13 +24,6 @@ ImportFolder::~ImportFolder() {
     std::error_code ignored; // a failed removal must not hide the original error
     if (!keep_) fs::remove_all(path_, ignored);
     if (!keep_ && made_output_) fs::remove(path_.parent_path(), ignored); // only if it is empty
-}
-
-void require_link_name(const std::string& name) {
-    const auto allowed = [](unsigned char c) { return std::isalnum(c) || c == '-' || c == '_'; };
-    if (name.size() > 60 || !std::all_of(name.begin(), name.end(), allowed))
-        throw std::runtime_error("'" + name +
-                                 "' is not the name of a link: expected at most 60 letters, digits, - and _");
 }
 
 } // namespace tandem::command

@@ -26,7 +26,4 @@ class ImportFolder {
     bool made_output_ = false, keep_ = false;
 };
 
-/// Throws std::runtime_error unless the name is valid for a link.
-void require_link_name(const std::string& name);
-
 } // namespace tandem::command

@@ -14,6 +14,7 @@
 #include "host/opros/engine/profile/xml_file.hpp"
 #include "host/plugin/error.hpp"
 #include "host/plugin/find_library.hpp"
+#include "shm/segment/segment_file.hpp"
 
 #include <algorithm>
 #include <map>
@@ -304,7 +305,7 @@ int opros_import(const OprosImportOptions& options) {
     if (!fs::is_directory(options.folder))
         throw std::runtime_error(options.folder.string() +
                                  " is not a folder: expected an installation of the OPRoS engine");
-    require_link_name(options.link);
+    if (!options.link.empty()) shm::check_link_name(options.link);
     const fs::path engine_dir = fs::canonical(options.folder);
     ImportReport report;
     const EngineConfig config = read_engine_config(engine_dir, report);

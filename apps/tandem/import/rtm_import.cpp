@@ -8,6 +8,7 @@
 #include "apps/tandem/import/rts_profile.hpp"
 #include "apps/tandem/output/print.hpp"
 #include "host/text/join.hpp"
+#include "shm/segment/segment_file.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -290,7 +291,7 @@ int rtm_import(const RtmImportOptions& options) {
     if (!fs::is_directory(options.folder))
         throw std::runtime_error(options.folder.string() +
                                  " is not a folder: expected an installation of OpenRTM-aist");
-    require_link_name(options.link);
+    if (!options.link.empty()) shm::check_link_name(options.link);
     RtmSetup setup;
     setup.installation = fs::canonical(options.folder);
     require_conf_path(setup.installation);

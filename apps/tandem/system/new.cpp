@@ -7,6 +7,7 @@
 #include "apps/tandem/system/staged_folder.hpp"
 #include "host/opros/engine/load/load_component.hpp"
 #include "host/opros/engine/load/plugin_dirs.hpp"
+#include "shm/segment/segment_file.hpp"
 
 #include <fmt/ranges.h>
 #include <pugixml.hpp>
@@ -153,7 +154,7 @@ std::string rtc_conf_text(const std::vector<Part>& parts, const std::string& lin
 int system_new(const NewSystemOptions& options) {
     const fs::path whole = fs::absolute(options.folder).lexically_normal();
     const std::string link = (whole.has_filename() ? whole : whole.parent_path()).filename().string();
-    require_link_name(link);
+    shm::check_link_name(link);
     const auto parts = find_parts(options);
     require_different_names(parts);
     const std::string application = application_text(parts, link);

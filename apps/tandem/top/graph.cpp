@@ -54,11 +54,13 @@ std::string inside_text(const monitor::State& state) {
         const std::string names = text::join(host.inventory->components, ", ",
                                              [](const auto& component) { return component.name; });
         text += fmt::format("{} (pid {}): {}\n", host.program, host.pid, names);
-        for (const auto& [from_host, to_host, from, to] : connections)
+        for (const auto& [from_host, to_host, from, to] : connections.shown)
             if (from_host == &host)
                 text += fmt::format("  {}.{} -> {}.{}{}\n", from->component, from->name, to->component,
                                     to->name, from->kind == "data" ? "" : "  " + from->kind);
     }
+    if (connections.left_out != 0)
+        text += fmt::format("{} more connections are not shown\n", connections.left_out);
     return text;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 #include "apps/tandem/monitor/state.hpp"
 
+#include <cstddef>
 #include <vector>
 
 namespace tandem::command {
@@ -12,7 +13,14 @@ struct InsideConnection {
     const monitor::HostPort *from, *to; ///< the port that sends or calls, and the one that receives or serves
 };
 
-/// Returns the connections that the hosts list. The pointers are valid as long as the state.
-std::vector<InsideConnection> inside_connections(const monitor::State& state);
+/// The pointers are valid as long as the state.
+struct InsideConnections {
+    static constexpr std::size_t most = 10'000; ///< a host may list one id for all of its ports
+    std::vector<InsideConnection> shown;
+    std::size_t left_out = 0;
+};
+
+/// Returns the connections that the hosts list, sorted by name.
+InsideConnections inside_connections(const monitor::State& state);
 
 } // namespace tandem::command

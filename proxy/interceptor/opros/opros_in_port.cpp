@@ -25,6 +25,7 @@ OprosInPort::OprosInPort(const char* name, const char* data_type, std::string ch
 /// What comes must go to the link in somebody's thread: the sender's.
 void OprosInPort::init(coil::Properties& properties) {
     RTC::InPortBase::init(properties);
+    const std::lock_guard lock(m_profile_mutex);
     auto& of_profile = m_profile.properties;
     if (const auto at = NVUtil::find_index(of_profile, "dataport.dataflow_type"); at >= 0)
         of_profile[static_cast<CORBA::ULong>(at)] = NVUtil::newNV("dataport.dataflow_type", "push");

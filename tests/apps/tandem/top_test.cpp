@@ -3,6 +3,7 @@
 #include "followed_link.hpp"
 #include "monitor/states.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -129,4 +130,16 @@ TEST_CASE("a graph has the components of every host, and the connections that no
     CHECK(has(dot, R"("44 Sensor0" [label="Sensor0" shape=box])"));
     CHECK(has(dot, R"("44 Sensor0" -> "44 Arm0" [label="out"])"));
     CHECK(has(dot, R"("44 Arm0" -> "55 Hand0" [label="tool" style=dashed])"));
+}
+
+TEST_CASE("a graph shows a bounded number of the connections of ports that share an id") {
+    auto inventory = std::make_shared<monitor::HostInventory>();
+    for (int i = 0; i < 200; ++i)
+        for (const char* direction : {"output", "input"})
+            inventory->ports.push_back({"Arm0", direction + std::to_string(i), "data", direction, "", {"1"}});
+    monitor::State state;
+    state.hosts = {{44, "rtm_host", {}, {}, inventory}};
+    const std::string dot = graph_dot(state);
+    CHECK(has(dot, "label=\"30000 more connections are not shown\""));
+    CHECK(std::count(dot.begin(), dot.end(), '>') == 10'000);
 }

@@ -46,8 +46,8 @@ TEST_CASE("a side that a living process holds is refused") {
     CHECK(pair.link.files().size() == 1);
 }
 
-TEST_CASE("link names that could not be file names are refused") {
-    for (const auto* name : {"", "a/b", "..", "a.1", "a b", "\n"})
+TEST_CASE("link names that could not be file names or could be options are refused") {
+    for (const auto* name : {"", "a/b", "..", "a.1", "a b", "\n", "-a"})
         CHECK_THROWS_AS(Segment::join(name, Side::first), Error);
     CHECK_THROWS_AS(Segment::join(std::string(65, 'x'), Side::first), Error);
     CHECK_THROWS_AS(remove_dead("../x"), Error);

@@ -2,6 +2,7 @@
 #include "apps/tandem/monitor/control/systems.hpp"
 
 #include "apps/tandem/monitor/control/output_text.hpp"
+#include "shm/segment/segment_file.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -10,7 +11,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <stdexcept>
@@ -25,10 +25,7 @@ constexpr off_t max_log = 16 << 20;
 
 /// Throws unless the name is that of a link, as `tandem system new` needs it: it cannot lead to another folder.
 const std::string& require_name(const std::string& name) {
-    const auto allowed = [](unsigned char c) { return std::isalnum(c) != 0 || c == '-' || c == '_'; };
-    if (name.empty() || name.size() > 60 || name.front() == '-' ||
-        !std::all_of(name.begin(), name.end(), allowed))
-        throw std::invalid_argument("expected a name of at most 60 letters, digits, - and _");
+    shm::check_link_name(name);
     return name;
 }
 

@@ -125,7 +125,10 @@ bool InventoryReader::read_file(File& file) {
 
 bool InventoryReader::look(std::uint32_t pid) {
     auto files = open_memory_files(pid, Head::file_name, Head::file_bytes);
-    if (files.empty()) return false;
+    if (files.empty()) {
+        processes_.erase(pid); // the process that had the number before
+        return false;
+    }
     Process& process = processes_[pid];
     const bool same = std::equal(
         files.begin(), files.end(), process.files.begin(), process.files.end(),

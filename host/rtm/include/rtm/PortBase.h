@@ -26,6 +26,8 @@ class PortBase : public virtual POA_RTC::PortService, public virtual PortableSer
 
     PortProfile* get_port_profile() override;
     const PortProfile& getPortProfile() const { return m_profile; }
+    /// Ours: returns a copy without the connections, which may be many.
+    PortProfile profileWithoutConnections() const;
     ConnectorProfileList* get_connector_profiles() override;
     /// Returns a profile with an empty id if there is no such connection.
     ConnectorProfile* get_connector_profile(const char* connector_id) override;
@@ -130,9 +132,11 @@ class PortBase : public virtual POA_RTC::PortService, public virtual PortableSer
 
     template <class ValueType>
     void addProperty(const char* key, ValueType value) {
+        const std::lock_guard<std::mutex> lock(m_profile_mutex);
         CORBA_SeqUtil::push_back(m_profile.properties, NVUtil::newNV(key, value));
     }
     void appendProperty(const char* key, const char* value) {
+        const std::lock_guard<std::mutex> lock(m_profile_mutex);
         NVUtil::appendStringValue(m_profile.properties, key, value);
     }
 

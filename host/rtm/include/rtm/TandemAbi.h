@@ -4,7 +4,7 @@
 #ifndef RTM_TANDEMABI_H
 #define RTM_TANDEMABI_H
 
-#define TANDEM_RTM_ABI 35 // headers: ad7bdeb3a1e5b9c8
+#define TANDEM_RTM_ABI 36 // headers: 4b38f72939c17474
 
 // Stored as an ELF note in every object file. The loader reads it before it loads a module. A note, unlike a symbol,
 // needs no linking and cannot clash, and no linker option or strip removes it (--gc-sections, version scripts, hidden

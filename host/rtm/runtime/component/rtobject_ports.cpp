@@ -72,7 +72,8 @@ bool RTObject_impl::addNamed(const char* name, PortBase& port) {
 }
 
 bool RTObject_impl::addPort(PortBase& port) {
-    return addNamed(port.getName(), port) && notify(m_actionListeners.portaction_[0], port.getPortProfile());
+    return addNamed(port.getName(), port) &&
+           notify(m_actionListeners.portaction_[0], port.profileWithoutConnections());
 }
 
 bool RTObject_impl::addPort(CorbaPort& port) {
@@ -80,7 +81,8 @@ bool RTObject_impl::addPort(CorbaPort& port) {
     coil::Properties& node = m_properties.getNode("port.corbaport." + name.substr(name.rfind('.') + 1));
     if (const auto* common = m_properties.findNode("port.corba")) node << *common;
     port.init(node);
-    return addNamed(name.c_str(), port) && notify(m_actionListeners.portaction_[0], port.getPortProfile());
+    return addNamed(name.c_str(), port) &&
+           notify(m_actionListeners.portaction_[0], port.profileWithoutConnections());
 }
 
 // Returns false if the component already has a port of that name.
@@ -90,7 +92,7 @@ bool RTObject_impl::addInPort(const char* name, InPortBase& inport) {
     if (!addNamed(name, inport)) return false;
     inport.init(node);
     m_inports.push_back(&inport);
-    return notify(m_actionListeners.portaction_[0], inport.getPortProfile());
+    return notify(m_actionListeners.portaction_[0], inport.profileWithoutConnections());
 }
 
 bool RTObject_impl::addOutPort(const char* name, OutPortBase& outport) {
@@ -99,7 +101,7 @@ bool RTObject_impl::addOutPort(const char* name, OutPortBase& outport) {
     if (!addNamed(name, outport)) return false;
     outport.init(node);
     m_outports.push_back(&outport);
-    return notify(m_actionListeners.portaction_[0], outport.getPortProfile());
+    return notify(m_actionListeners.portaction_[0], outport.profileWithoutConnections());
 }
 
 // Ports of other components, which a composite shows as its own.
@@ -127,7 +129,7 @@ bool RTObject_impl::removePort(PortBase& port) {
     std::erase_if(m_outports, [&](OutPortBase* p) { return static_cast<PortBase*>(p) == &port; });
     if (!m_portAdmin.removePort(port)) return false;
     port.setPortConnectListenerHolder(nullptr); // the port may outlive the component
-    return notify(m_actionListeners.portaction_[1], port.getPortProfile());
+    return notify(m_actionListeners.portaction_[1], port.profileWithoutConnections());
 }
 
 void RTObject_impl::deletePortByName(const char* port_name) {

@@ -34,7 +34,10 @@ void CorbaPort::retire() {
 
 void CorbaPort::init(coil::Properties& prop) {
     m_properties << prop;
-    NVUtil::mergeFromProperties(m_profile.properties, m_properties);
+    {
+        const std::lock_guard lock(m_profile_mutex);
+        NVUtil::mergeFromProperties(m_profile.properties, m_properties);
+    }
     initConnectionLimit();
 }
 

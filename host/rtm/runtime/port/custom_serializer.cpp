@@ -26,9 +26,8 @@ std::string marshaling_type(const ConnectorProfile& connection, const SDOPackage
 bool uses_custom_serializer(const ConnectorProfile& profile) {
     for (CORBA::ULong i = 0; i < profile.ports.length(); ++i) {
         const auto local = local_object<PortBase>(profile.ports[i]);
-        // The profile of a port of this process is not copied: it contains all connections of the port.
         const std::string type = coil::eraseBothEndsBlank(
-            local ? marshaling_type(profile, local->getPortProfile().properties)
+            local ? marshaling_type(profile, local->profileWithoutConnections().properties)
                   : marshaling_type(profile,
                                     PortProfile_var(profile.ports[i]->get_port_profile())->properties));
         if (!type.empty() && type != "cdr") return true;

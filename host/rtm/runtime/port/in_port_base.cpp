@@ -58,8 +58,11 @@ InPortBase::~InPortBase() {
 void InPortBase::init(coil::Properties& prop) {
     m_properties << prop;
     if (const auto* node = m_properties.findNode("buffer")) m_thebuffer->init(*node);
-    NVUtil::mergeFromProperties(m_profile.properties, m_properties);
-    append_registered_types(m_profile.properties, true);
+    {
+        const std::lock_guard lock(m_profile_mutex);
+        NVUtil::mergeFromProperties(m_profile.properties, m_properties);
+        append_registered_types(m_profile.properties, true);
+    }
     initConnectionLimit();
 }
 

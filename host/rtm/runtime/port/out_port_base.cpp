@@ -49,8 +49,11 @@ OutPortBase::~OutPortBase() {
 
 void OutPortBase::init(coil::Properties& prop) {
     m_properties << prop;
-    NVUtil::mergeFromProperties(m_profile.properties, m_properties);
-    append_registered_types(m_profile.properties, false);
+    {
+        const std::lock_guard lock(m_profile_mutex);
+        NVUtil::mergeFromProperties(m_profile.properties, m_properties);
+        append_registered_types(m_profile.properties, false);
+    }
     initConnectionLimit();
 }
 

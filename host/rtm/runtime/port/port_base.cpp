@@ -62,6 +62,17 @@ PortProfile* PortBase::get_port_profile() {
     return new PortProfile(m_profile);
 }
 
+PortProfile PortBase::profileWithoutConnections() const {
+    std::lock_guard<std::mutex> lock(m_profile_mutex);
+    PortProfile profile;
+    profile.name = m_profile.name;
+    profile.interfaces = m_profile.interfaces;
+    profile.port_ref = m_profile.port_ref;
+    profile.owner = m_profile.owner;
+    profile.properties = m_profile.properties;
+    return profile;
+}
+
 ConnectorProfileList* PortBase::get_connector_profiles() {
     std::lock_guard<std::mutex> lock(m_profile_mutex);
     return new ConnectorProfileList(m_profile.connector_profiles);

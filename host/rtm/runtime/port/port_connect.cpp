@@ -29,9 +29,9 @@ PortDescription describe_port(const PortProfile& profile) {
             NVUtil::toString(profile.properties, "dataport.data_type")};
 }
 
-// The profile of a port of this process is not copied: it contains all connections of the port.
 PortDescription describe_port(PortService_ptr port) {
-    if (const auto local = local_object<PortBase>(port)) return describe_port(local->getPortProfile());
+    if (const auto local = local_object<PortBase>(port))
+        return describe_port(local->profileWithoutConnections());
     return describe_port(PortProfile_var(port->get_port_profile()).in());
 }
 

@@ -49,7 +49,7 @@ void listen(std::vector<std::function<void()>>& removals, RTObject_impl& compone
     PortServiceList_var ports = component.get_ports();
     for (CORBA::ULong i = 0; i < ports->length(); ++i) {
         const auto port = local_object<Port>(ports[i]);
-        if (!port || !self->_is_equivalent(port->getPortProfile().owner)) continue;
+        if (!port || !self->_is_equivalent(port->profileWithoutConnections().owner)) continue;
         auto* listener = new MessageEvent(tell, event + port->getName(), interval);
         port->addConnectorDataListener(type, listener);
         removals.push_back([reference = PortService_var(PortService::_duplicate(ports[i])), type, listener] {

@@ -369,8 +369,7 @@ TEST_CASE("tandem rtm import refuses bad input with one line that names the plac
     CHECK_THAT(Installation("\nexec_cxt.periodic.rate: fast\n").refused(),
                Contains("rtc.conf:2: exec_cxt.periodic.rate is fast"));
     CHECK_THAT(Installation("\n\nmanager.components.precreate: A:B\n").refused(), Contains("rtc.conf:3: "));
-    CHECK_THAT(Installation(pair_conf).refused({"--link", "a b"}),
-               Contains("'a b' is not the name of a link: expected"));
+    CHECK_THAT(Installation(pair_conf).refused({"--link", "a b"}), Contains("link name 'a b': expected"));
     const auto refused = [](const std::string& text) {
         const Installation installation(pair_conf);
         installation.write("robot/RTSystem.xml", text);

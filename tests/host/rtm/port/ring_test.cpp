@@ -177,9 +177,14 @@ TEST_CASE("Where /dev/shm has no room messages go by calls, and none is lost") {
 }
 
 TEST_CASE("A ring that is not there is refused in one line, and leaves no file") {
-    CHECK_THROWS_AS(RTC::MessageRingReader("rtm-of-nobody"), tandem::shm::Error);
-    CHECK(files_of("rtm-of-nobody").empty());
-    CHECK_THROWS_AS(RTC::MessageRingReader("../no/link"), tandem::shm::Error);
+    CHECK_THROWS_AS(RTC::MessageRingReader("rtm-messages-of-nobody"), tandem::shm::Error);
+    CHECK(files_of("rtm-messages-of-nobody").empty());
+}
+
+TEST_CASE("A ring under a name that a sender does not give is refused before its segment is looked for") {
+    for (const char* name : {"plant", "rtm-of-nobody", "../no/link", ""})
+        CHECK_THROWS_WITH(RTC::MessageRingReader(name),
+                          Catch::Contains("': not a name of a segment for messages"));
 }
 
 TEST_CASE("A ring that the other process has damaged gives nothing more") {

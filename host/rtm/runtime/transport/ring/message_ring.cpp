@@ -11,6 +11,7 @@ using tandem::shm::Error;
 using tandem::shm::Segment;
 using tandem::shm::Side;
 
+constexpr std::string_view ring_link_prefix = "rtm-messages-";
 constexpr char ring_name[] = "messages", calls_name[] = "calls", state_name[] = "state";
 constexpr std::uint64_t contract = 0x52494e47'00000002; // "RING", and the version of what is in the segment
 // The reader holds one of the chunks and two are in transit. A chunk takes memory only when it is first used.
@@ -37,11 +38,18 @@ tandem::shm::JoinOptions writer_options() {
     return options;
 }
 
+// The name comes from the other process. join() would create a missing segment, also under the name of another link.
+const std::string& require_prefix(const std::string& link) {
+    if (!link.starts_with(ring_link_prefix))
+        throw Error("link '" + link + "': not a name of a segment for messages");
+    return link;
+}
+
 } // namespace
 
 MessageRingWriter::MessageRingWriter()
     // No other link has that name. Otherwise a segment of another container with the same /dev/shm could be joined.
-    : link_(std::string("rtm-") + coil::UUID_Generator().generateUUID()->to_string()),
+    : link_(std::string(ring_link_prefix) + coil::UUID_Generator().generateUUID()->to_string()),
       segment_(Segment::join(link_, Side::first, writer_options())) {
     tandem::shm::install_truncation_guard();
     state_ = new (segment_->add_blob(state_name, sizeof(RingState)).data()) RingState{};
@@ -100,7 +108,7 @@ bool MessageRingWriter::is_read() {
 }
 
 MessageRingReader::MessageRingReader(const std::string& link)
-    : segment_(Segment::join(link, Side::second, join_options())) {
+    : segment_(Segment::join(require_prefix(link), Side::second, join_options())) {
     tandem::shm::install_truncation_guard();
     const auto state = segment_->find_blob(Side::first, state_name);
     const auto ring = segment_->find_ring(Side::first, ring_name);

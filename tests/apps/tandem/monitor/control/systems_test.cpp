@@ -125,7 +125,7 @@ TEST_CASE(
     CHECK(same.exit_code == 1);
     CHECK_THAT(same.errors, Catch::Contains("would both be components with the name PartComp"));
     CHECK(create("robot.1").errors ==
-          "tandem: 'robot.1' is not the name of a link: expected at most 60 letters, digits, - and _\n");
+          "tandem: link name 'robot.1': expected 1 to 64 characters of A-Z a-z 0-9 _ -, the first not -\n");
     CHECK(!fs::exists(folder.path / "robot"));
     CHECK(!fs::exists(folder.path / "robot.1"));
 }

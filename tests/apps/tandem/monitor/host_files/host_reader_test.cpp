@@ -132,6 +132,19 @@ TEST_CASE("an inventory that takes the place of another one is read") {
     CHECK(reader.read(own_pid)->components.at(0).name == "Second");
 }
 
+TEST_CASE("a process without an inventory does not have that of the process before with its pid") {
+    InventoryReader reader;
+    {
+        const std::string text = "component\tBefore\tT\t\t0\n";
+        const auto file = false_inventory(sound_head(4, text.size()), text);
+        REQUIRE(reader.look(own_pid));
+        REQUIRE(reader.read(own_pid)->components.size() == 1);
+    }
+    const bool has_another = reader.look(own_pid); // of a test before
+    const auto inventory = reader.read(own_pid);
+    CHECK((has_another ? inventory->components.empty() : inventory == nullptr));
+}
+
 TEST_CASE("a host without a link is found by what it lists, and its use of the machine is read") {
     const int arm = 0;
     list_part(&arm, {"component", "Arm", "T", "", "0"});
