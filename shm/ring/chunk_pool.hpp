@@ -18,8 +18,8 @@ class ChunkPool {
     /// Call it before the attempts for one message: they ask the system for memory only once.
     void begin_message() { no_memory_ = false; }
 
-    /// Finds a free chunk with memory for `bytes` and makes it current. Goes round robin from the last chunk, so that a
-    /// chunk is reused as late as possible, when its lines have left the reader's cache and need no transfer.
+    /// Makes a free chunk with memory for `bytes` current. Returns false if there is none. Goes round robin from the last
+    /// chunk: a chunk is then reused late, when its lines have left the reader's cache and need no transfer.
     bool find_free(const RingView<A>& ring, std::uint64_t bytes) {
         for (std::uint32_t i = 1; i <= ring.chunk_count; ++i) {
             const std::uint32_t index = (current_ + i) % ring.chunk_count;

@@ -133,7 +133,7 @@ class ChannelWriter {
         const std::optional<std::size_t> used = fill(bound_->ring.scratch().first(bytes));
         return used && publish(*used, stamp);
     }
-    /// Publishes the first `bytes` of the ring's scratch memory.
+    /// Publishes the first `bytes` of the ring's scratch memory. Returns false if the message was refused.
     bool publish(std::size_t bytes, std::uint64_t stamp) {
         if (attends_ || rt::rehearsing()) [[unlikely]]
             return publish_attending(bytes, stamp);
@@ -234,7 +234,7 @@ class ChannelReader {
         use(*record);
         return true;
     }
-    /// For readers that read several messages or may rehearse: lock the mutex, then call read_locked() and decode. The
+    /// Returns the mutex, for readers that read several messages or may rehearse: lock it, then call read_locked() and decode. The
     /// record is valid while the lock is held. In a rehearsal read_locked() returns the last message again.
     rt::ShortMutex& mutex() { return mutex_; }
     const shm::Record* read_locked() {
