@@ -57,7 +57,7 @@ class ChunkPool {
                ring.chunk_words[index].returned.load(std::memory_order_acquire) >= lent_to_[index];
     }
 
-    /// In a sparse segment, gives a chunk memory at its first use. Returns false if no memory is left; another chunk may
+    /// Gives a chunk of a sparse segment memory at its first use. Returns false if no memory is left; another chunk may
     /// have enough already.
     bool allocate(const RingView<A>& ring, std::uint32_t index, std::uint64_t bytes) {
         if (ring.allocate_chunk == nullptr || bytes <= allocated_[index]) return true;

@@ -295,7 +295,7 @@ class ChannelReader {
         set_depth_locked(messages);
     }
     void set_depth_locked(std::uint64_t messages);
-    /// For several targets of one channel, see shm::RingReader::set_room(). Require the lock.
+    /// Sets the room for several targets of one channel, see shm::RingReader::set_room(). Requires the lock.
     void set_room_locked(std::optional<std::uint64_t> messages);
     bool sender_waits_locked() const { return bound_ && bound_->ring.writer_waits_for_room(); }
     /// Removes all waiting messages from the ring unread. Returns their number. [any-thread]
