@@ -20,10 +20,10 @@ struct HandleState {
 };
 using SharedHandle = std::shared_ptr<HandleState>;
 
-/// The handle of the calls that this thread makes, valid in its scope; nullptr: there is none.
+/// Returns the handle of the calls that this thread makes, valid in its scope; nullptr: there is none.
 const SharedHandle* handle_of_thread();
 
-/// Sets it, and returns the one before.
+/// Replaces that handle. Returns the previous one.
 const SharedHandle* exchange_handle_of_thread(const SharedHandle* handle);
 
 /// The call that a thread executes, if it executes one at this moment.

@@ -28,8 +28,8 @@ struct RtmHostOptions {
     }
 };
 
-/// Parses the command line. Returns nothing after --help, --version or a mistake, for which it has printed the
-/// answer. `exit_code` is then the program's exit code.
+/// Parses the command line. After --help, --version or a mistake, prints the text or the error, sets `exit_code` to the
+/// program's exit code, and returns nothing.
 std::optional<RtmHostOptions> parse_rtm_host_options(int argc, char** argv, int& exit_code);
 
 } // namespace tandem::options

@@ -79,8 +79,8 @@ class CellRing {
             return true;
         return take_overtaken();
     }
-    /// Looks at the value that take() would take, which then becomes the reader's. It stays in the queue until take(), or
-    /// until the writer drops it. [reading thread]
+    /// Makes last() the value that take() would take, and leaves it in the queue until take(), or until the writer drops
+    /// it. Returns false if the queue is empty. [reading thread]
     bool peek();
     /// Returns the index of the value that was taken last. [reading thread]
     std::uint32_t readers() const { return reader_.value; }
@@ -173,9 +173,9 @@ class ValueRing : public CellRing {
     explicit ValueRing(std::size_t depth) : CellRing(depth), values_(depth + 2) {}
 
     Value& at(std::uint32_t index) { return values_[index].value; }
-    /// The value that publish() appends. It holds an old value, whose memory can be used again. [writing thread]
+    /// Returns the value that publish() appends. It holds an old value, whose memory can be reused. [writing thread]
     Value& next() { return at(writers()); }
-    /// The value that was taken or looked at last. [reading thread]
+    /// Returns the value that was taken or looked at last. [reading thread]
     Value& last() { return at(readers()); }
 
   private:

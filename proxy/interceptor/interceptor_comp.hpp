@@ -32,7 +32,8 @@ class InterceptorComp final : public RTC::DataFlowComponentBase, private link::L
     explicit InterceptorComp(RTC::Manager* manager);
     ~InterceptorComp() override;
 
-    /// In a thread of a link, which onFinalize() waits for, leaves the end to the manager's thread and returns RTC_OK.
+    /// Ends the component. If a thread of the link calls this, a thread of the manager ends it a little later, because
+    /// onFinalize() waits for the link's threads.
     RTC::ReturnCode_t exit() override;
     RTC::ReturnCode_t onInitialize() override;
     RTC::ReturnCode_t onFinalize() override;

@@ -28,9 +28,9 @@ class SharedPorts {
     /// Makes mirrors of the ports and connects them. `shared.table` is the link's port table. Throws std::runtime_error if
     /// a port cannot be used and the user is strict. [before Link::open()]
     void share(const SharedRtcs& shared);
-    /// Follows what this RTC of this process adds and removes from now on. [before Link::open()]
+    /// Follows the ports that an RTC of this process adds and removes from now on. [before Link::open()]
     void watch(RTC::RTObject_impl& rtc);
-    /// Follows an RTC of another process: `ports` are those that it has now; none: it has gone. [task-thread]
+    /// Follows an RTC of another process. `ports`: its present ports; empty if it has gone. [task-thread]
     void follow(const std::string& component, std::vector<RtcPort> ports);
 
   private:

@@ -92,8 +92,8 @@ std::string to_signature(const Type& message);
 /// Returns the signature with the names of members, each in braces before its type: `{tm}({sec}u{nsec}u){data}ad`.
 std::string to_named_signature(const Type& message);
 
-/// The signature of an any's value is that of one type with names and ids, `{IDL:RTC/Time:1.0}({sec}u{nsec}u)`, and empty
-/// for null: a structure without members. A list of members stands for their structure. parse throws SignatureError.
+/// Returns the signature of an any's value, with names and ids: `{IDL:RTC/Time:1.0}({sec}u{nsec}u)`. It is empty for
+/// null, a structure without members. The reverse throws SignatureError, and reads a list of members as their structure.
 std::string to_any_signature(const Type& value);
 Type parse_any_signature(std::string_view signature);
 

@@ -16,7 +16,7 @@ struct IncomingCall::State {
     /// Takes the call that has waited longest; waits for a call at most `bound`. Returns false if none came.
     bool take(std::chrono::nanoseconds bound, TakenCall& call);
 
-    /// Takes a call without waiting. Answers calls that must not run.
+    /// Takes a call without waiting, and answers calls that must not run. Returns false if none may run.
     bool take_runnable(bool& polling, RecentClock& clock, TakenCall& call);
 
     void answer(const TakenCall& call, CallStatus status, std::span<const std::byte> bytes);

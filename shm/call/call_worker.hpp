@@ -79,8 +79,8 @@ class CallWorker {
         return wake_sleeper<A>(slot.request.caller_asleep);
     }
 
-    /// Makes this worker the one that polls, unless another worker polls. One poller sees a call soonest; more of them
-    /// would only use more cores.
+    /// Makes this worker the one that polls. Returns false if another worker polls: one poller sees a call soonest, and
+    /// more of them would only use more cores.
     bool try_become_poller() {
         if (has_poller_.exchange(1, std::memory_order_seq_cst) != 0) return false;
         announce(layout::WorkerPolling::yes);

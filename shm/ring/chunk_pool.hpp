@@ -18,8 +18,8 @@ class ChunkPool {
     /// Call it before the attempts for one message: they ask the system for memory only once.
     void begin_message() { no_memory_ = false; }
 
-    /// Finds a free chunk with memory for `bytes` and makes it current. Goes round robin from the last chunk, so that a
-    /// chunk is reused as late as possible, when its lines have left the reader's cache and need no transfer.
+    /// Makes a free chunk with memory for `bytes` current. Returns false if there is none. Goes round robin from the last
+    /// chunk: a chunk is then reused late, when its lines have left the reader's cache and need no transfer.
     bool find_free(const RingView<A>& ring, std::uint64_t bytes) {
         for (std::uint32_t i = 1; i <= ring.chunk_count; ++i) {
             const std::uint32_t index = (current_ + i) % ring.chunk_count;
@@ -57,7 +57,7 @@ class ChunkPool {
                ring.chunk_words[index].returned.load(std::memory_order_acquire) >= lent_to_[index];
     }
 
-    /// In a sparse segment, gives a chunk memory at its first use. Returns false if no memory is left; another chunk may
+    /// Gives a chunk of a sparse segment memory at its first use. Returns false if no memory is left; another chunk may
     /// have enough already.
     bool allocate(const RingView<A>& ring, std::uint32_t index, std::uint64_t bytes) {
         if (ring.allocate_chunk == nullptr || bytes <= allocated_[index]) return true;

@@ -104,7 +104,7 @@ class alignas(layout::line_pair) RingConsumer {
     Record record_; // the last record
     mutable ReaderBackoff<A> backoff_;
     ChunkLease<A> lease_;
-    // Front and payload of the last record. Takes no memory before it is used.
+    // Front and payload of the last record. The kernel provides its pages when they are first written.
     std::unique_ptr<std::uint64_t[]> scratch_;
     std::uint64_t skipped_; // this and the following are rarely needed
     std::uint64_t stamp_ = 0;

@@ -65,10 +65,10 @@ class alignas(layout::line_pair) RingProducer {
     /// Returns false, without side effects, if it does not fit, if that is not known yet, or if its age is to be measured.
     /// `readable_behind`: up to 48 bytes behind `bytes` are readable and may be copied, too.
     bool write_behind_last(const void* bytes, std::size_t count, std::uint64_t stamp, bool readable_behind);
-    /// Publishes like write_behind_last(), but a message made of one word and `count` other bytes at another address.
+    /// Publishes like write_behind_last(), but a message of one word and `count` bytes at another address.
     bool write_words_behind_last(std::uint64_t first, const void* others, std::size_t count,
                                  std::uint64_t stamp);
-    /// Publishes by write_behind_last() if possible, otherwise by reserve(), a copy and commit().
+    /// Publishes by write_behind_last() or by reserve(), a copy and commit(). Returns false if the message was refused.
     bool write(const void* bytes, std::size_t count, std::uint64_t stamp);
     /// Loads what a message of this length needs into the caches. Also has the next age measured if none was
     /// measured for a long time.

@@ -13,7 +13,7 @@
 
 namespace tandem::shm {
 
-/// Sleeps until ready() holds; returns false if A::now() reaches `deadline` first. ready() must load with seq_cst.
+/// Sleeps until ready() holds. Returns false if A::now(), in ns, reaches `deadline` first. ready() must load with seq_cst.
 template <class A = RealAtomics, class Ready>
 bool sleep_until(typename A::template Atomic<std::uint32_t>& word, std::uint64_t deadline, Ready&& ready) {
     bool done = false;

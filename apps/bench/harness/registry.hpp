@@ -23,7 +23,7 @@ struct Registry {
     void add_with_conditions(const Case& entry);
 };
 
-/// All cases, ordered by comparison key.
+/// Returns all cases, ordered by comparison key.
 Registry all_cases();
 
 } // namespace tandem::bench

@@ -19,11 +19,11 @@ struct Clock {
 
     /// [before any fork] Chooses the clock and measures the counter's rate against CLOCK_MONOTONIC_RAW.
     static void calibrate();
-    /// For the report: "rdtsc+lfence, 2.300 GHz" or "CLOCK_MONOTONIC_RAW".
+    /// Returns the clock's name for the report: "rdtsc+lfence, 2.300 GHz" or "CLOCK_MONOTONIC_RAW".
     static std::string name();
 };
 
-/// Now, in ns of CLOCK_MONOTONIC_RAW.
+/// Returns the present time in ns of CLOCK_MONOTONIC_RAW.
 inline std::uint64_t raw_ns() {
     timespec now{};
     clock_gettime(CLOCK_MONOTONIC_RAW, &now);

@@ -14,16 +14,16 @@ class PathRecorder {
   public:
     explicit PathRecorder(Tracer& tracer) : tracer_(tracer) {}
 
-    /// Data: one thread sends, the other one (or the same) receives. The message has arrived before the
-    /// receiver checks for it.
+    /// Record the two ends of a message. One thread sends, and another or the same one receives. The message has
+    /// arrived before the receiver checks for it.
     PathTrace record_sender();
     PathTrace record_receiver();
-    /// A call that is served in the caller's own thread.
+    /// Records a call that is served in the caller's own thread.
     PathTrace record_local_call();
-    /// A call to another process. Between two steps of the caller, the peer's worker gets all the time that
+    /// Records a call to another process. Between two steps of the caller, the peer's worker gets all the time that
     /// it needs, so the caller finds its reply at the first check.
     PathTrace record_caller();
-    /// The peer's worker, from its wake-up until the caller has its reply.
+    /// Records the peer's worker, from its wake-up until the caller has its reply.
     PathTrace record_worker();
 
   private:

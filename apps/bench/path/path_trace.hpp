@@ -37,7 +37,7 @@ class CodeMap {
 /// The instructions that a thread has executed between two marks.
 class PathTrace {
   public:
-    /// For a thread of this process, which has loaded all its libraries.
+    /// Begins the trace of a thread of `process`, which must have loaded all its libraries.
     explicit PathTrace(pid_t process) : process_(process), code_(process) {}
 
     /// Adds the instruction that the thread will execute next.

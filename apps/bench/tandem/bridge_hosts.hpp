@@ -8,10 +8,10 @@
 
 namespace tandem::bench {
 
-/// The direction is the case's detail.
+/// Returns whether the case measures that direction, which is its detail.
 inline bool opros_to_rtm(const Session& session) { return session.bench_case().detail == "opros-to-rtm"; }
 
-/// The file in that folder into which a component writes its samples.
+/// Returns the file in that folder into which a component writes its samples.
 std::filesystem::path samples_file(const std::filesystem::path& folder);
 /// Returns the samples in that file.
 std::vector<double> doubles_in(const std::filesystem::path& file);
@@ -27,8 +27,7 @@ std::string floor_file(const Session& session);
 /// Returns whether a paired case has 100 ms or more between two messages, so that each of its windows takes
 /// long.
 bool has_long_windows(const Session& session);
-/// How often a paired case changes from the bridge to its floor and back, and how many windows before do not
-/// count.
+/// Returns the number of windows of a paired case: how often it changes from the bridge to its floor and back.
 std::size_t paired_windows(const Session& session);
 constexpr std::size_t paired_warm_up = 5;
 

@@ -84,10 +84,10 @@ struct Branches {
     }
 };
 
-// The names of other users' files in /dev/shm must not be expanded, so that they are limited to the characters of links.
-// The same holds for the names of components.
-// `command` becomes the path of sub-commands that the words before the cursor name. bash splits at '=', so that
-// --option=value comes as three words. compgen gives one candidate per line: a file name may contain blanks.
+// The names of links and of components come from other users' files in /dev/shm. The shell must not expand them, so only
+// names made of a link's characters are offered.
+// `command` becomes the path of sub-commands that the words before the cursor name. bash splits at '=', so --option=value
+// comes as three words. compgen gives one candidate per line, because a file name may contain blanks.
 constexpr char script[] =
     R"(# bash completion for @NAME@, written by `@NAME@ completion bash` from the program's own options.
 _tandem_words() {

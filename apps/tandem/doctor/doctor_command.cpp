@@ -12,7 +12,7 @@
 #include "apps/tandem/output/table.hpp"
 #include "apps/tandem/run/run_folder.hpp"
 #include "apps/tandem/shared_ports/link_ports.hpp"
-#include "host/opros/engine/load/plugin_dirs.hpp"
+#include "host/plugin/plugin_dirs.hpp"
 #include "host/rtm/runtime/configuration/conf_file.hpp"
 #include "host/text/join.hpp"
 #include "shm/inspect/observer.hpp"
@@ -48,7 +48,7 @@ void check_opros(const RunFolder& folder, const FolderCheckOptions& options,
     inspect.initialize = true; // as the host does
     inspect.file = folder.application;
     inspect.plugin_dirs = options.plugin_dirs;
-    for (const auto& dir : engine::default_plugin_dirs()) inspect.plugin_dirs.push_back(dir);
+    for (const auto& dir : plugin::default_plugin_dirs("opros")) inspect.plugin_dirs.push_back(dir);
     inspect.rtc_conf = folder.rtc_conf;
     inspect.timeout_s = options.timeout_s;
     try {

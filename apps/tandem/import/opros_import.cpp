@@ -7,13 +7,13 @@
 #include "apps/tandem/import/import_nodes.hpp"
 #include "apps/tandem/output/print.hpp"
 #include "host/opros/engine/load/load_component.hpp"
-#include "host/opros/engine/load/plugin_dirs.hpp"
 #include "host/opros/engine/profile/application_profile.hpp"
 #include "host/opros/engine/profile/flatten_composites.hpp"
 #include "host/opros/engine/profile/profile_kind.hpp"
 #include "host/opros/engine/profile/xml_file.hpp"
 #include "host/plugin/error.hpp"
 #include "host/plugin/find_library.hpp"
+#include "host/plugin/plugin_dirs.hpp"
 #include "shm/segment/segment_file.hpp"
 
 #include <algorithm>
@@ -165,7 +165,7 @@ void import_component(const engine::Subcomponent& component, const ComponentPlac
     import_library(profile, places, report);
     tell_execution(xml, profile, report);
     tell_queues(profile, report);
-    auto folders = engine::default_plugin_dirs();
+    auto folders = plugin::default_plugin_dirs("opros");
     for (const auto& line : engine::check_properties(profile, component, folders))
         report.add_task("", line, "");
 }
@@ -193,7 +193,7 @@ class ApplicationCopy {
             if (nodes_.is_elsewhere(component)) continue;
             // Components of Tandem, such as AdaptorComp, are not copied: the host finds them.
             const fs::path file =
-                engine::find_component_profile(application_, component, engine::default_plugin_dirs());
+                engine::find_component_profile(application_, component, plugin::default_plugin_dirs("opros"));
             if (is_ours(file)) continue;
             const fs::path folder =
                 file.parent_path().lexically_normal().lexically_relative(from_.lexically_normal());
@@ -229,7 +229,7 @@ class ApplicationCopy {
 
   private:
     static bool is_ours(const fs::path& file) {
-        for (const auto& folder : engine::default_plugin_dirs())
+        for (const auto& folder : plugin::default_plugin_dirs("opros"))
             if (file.parent_path() == folder) return true;
         return false;
     }
@@ -322,7 +322,7 @@ int opros_import(const OprosImportOptions& options) {
     nodes.report(written, report);
     const ComponentPlaces places{engine_dir, application, copy.folders()};
     for (const auto& component :
-         engine::flatten_composites(written, engine::default_plugin_dirs()).subcomponents)
+         engine::flatten_composites(written, plugin::default_plugin_dirs("opros")).subcomponents)
         if (!nodes.is_elsewhere(component) && component.file.string().starts_with(folder.path().string()))
             import_component(component, places, report);
     folder.keep();

@@ -7,7 +7,7 @@
 #include "host/plugin/abi.hpp"
 #include "host/plugin/error.hpp"
 #include "host/plugin/find_library.hpp"
-#include "host/rtm/runtime/configuration/default_plugin_dirs.hpp"
+#include "host/plugin/plugin_dirs.hpp"
 #include "host/rtm/runtime/configuration/openrtm_modules.hpp"
 
 #include <coil/stringutil.h>
@@ -106,7 +106,7 @@ ModuleSource find_module(const RtmSetup& setup, const std::string& name, const s
     ModuleSource found;
     auto folders = setup.load_path;
     folders.push_back(setup.installation);
-    const auto defaults = RTC::default_plugin_dirs();
+    const auto defaults = plugin::default_plugin_dirs("rtm");
     folders.insert(folders.end(), defaults.begin(), defaults.end());
     try {
         const auto library = plugin::find_library(name, folders);

@@ -12,9 +12,9 @@
 #include "apps/tandem/shared_ports/link_ports.hpp"
 #include "apps/tandem/shared_ports/running_host.hpp"
 #include "host/opros/engine/load/load_component.hpp"
-#include "host/opros/engine/load/plugin_dirs.hpp"
 #include "host/opros/engine/node/node_part.hpp"
 #include "host/opros/engine/profile/application_profile.hpp"
+#include "host/plugin/plugin_dirs.hpp"
 #include "host/text/join.hpp"
 #include "proxy/adaptor/property_check.hpp"
 
@@ -366,7 +366,7 @@ int link_check(const LinkCheckOptions& options) {
                                  " has no application profile in opros/, so nothing is joined");
     InspectOptions inspect;
     inspect.plugin_dirs = options.plugin_dirs;
-    for (const auto& dir : engine::default_plugin_dirs()) inspect.plugin_dirs.push_back(dir);
+    for (const auto& dir : plugin::default_plugin_dirs("opros")) inspect.plugin_dirs.push_back(dir);
     inspect.initialize = options.initialize;
     inspect.timeout_s = options.timeout_s;
     const JoinedPorts joined = find_joined_ports(folder, inspect);

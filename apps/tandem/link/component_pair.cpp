@@ -5,9 +5,9 @@
 
 #include "apps/tandem/opros/component_profiles.hpp"
 #include "host/opros/engine/load/load_component.hpp"
-#include "host/opros/engine/load/plugin_dirs.hpp"
 #include "host/plugin/error.hpp"
 #include "host/plugin/library_contents.hpp"
+#include "host/plugin/plugin_dirs.hpp"
 #include "host/text/join.hpp"
 
 #include <optional>
@@ -107,7 +107,7 @@ ComponentPair find_component_pair(const LinkProfileOptions& options) {
                 " has no built RTC (build it with tandem rtm build) and is not an OPRoS component: " +
                 files.error);
     }
-    const auto library = engine::find_component_library(*opros, engine::default_plugin_dirs());
+    const auto library = engine::find_component_library(*opros, plugin::default_plugin_dirs("opros"));
     engine::require_opros_component(library);
     const RtcType type = select_type(module, options.type, options.timeout_s);
     return {std::move(*opros), library, module, type.name, type.category};

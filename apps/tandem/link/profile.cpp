@@ -10,7 +10,7 @@
 #include "apps/tandem/output/table.hpp"
 #include "apps/tandem/shared_ports/rtc_conf_ports.hpp"
 #include "apps/tandem/shared_ports/running_host.hpp"
-#include "host/opros/engine/load/plugin_dirs.hpp"
+#include "host/plugin/plugin_dirs.hpp"
 #include "host/rtm/runtime/configuration/conf_file.hpp"
 #include "host/text/join.hpp"
 #include "proxy/adaptor/property_check.hpp"
@@ -39,7 +39,7 @@ namespace fs = std::filesystem;
 // Copies AdaptorComp's profile, so that properties can be set for this link.
 void copy_adaptor_profile(const fs::path& folder) {
     std::string searched;
-    for (const auto& dir : engine::default_plugin_dirs()) {
+    for (const auto& dir : plugin::default_plugin_dirs("opros")) {
         std::error_code error;
         if (fs::copy_file(dir / "AdaptorComp.xml", folder / "AdaptorComp.xml",
                           fs::copy_options::overwrite_existing, error))
@@ -336,7 +336,7 @@ int link_profile(const LinkProfileOptions& options) {
     const auto table = probe_rtc_conf(folder.rtc_conf(), conf_options).at(folder.link());
     InspectOptions inspect;
     inspect.file = folder.application();
-    inspect.plugin_dirs = engine::default_plugin_dirs();
+    inspect.plugin_dirs = plugin::default_plugin_dirs("opros");
     inspect.initialize = options.initialize;
     inspect.timeout_s = options.timeout_s;
     const json opros_ports =

@@ -21,8 +21,8 @@ struct FollowedPort {
     bool timed = false; ///< the message begins with RTM's time, which is sent in the record's stamp
 };
 
-/// Returns a message of that port in CDR in the form of its side's model, with the time first if it is
-/// timed.
+/// Appends a message of the port to `out`, as CDR in the form that the model of the port's side uses. A timed message
+/// then begins with its time.
 void append_message(const FollowedPort& port, std::span<const std::byte> bytes, std::uint64_t stamp,
                     std::vector<std::byte>& out);
 

@@ -49,8 +49,8 @@ class LinkFollower {
     /// poll(), which finds the queues.
     void poll_calls(const DeliverCall& deliver, shm::CallActivity activity);
 
-    /// In the first generation found, also delivers messages that its readers have not read yet. In later
-    /// generations, and if there was no segment at first, this is always so.
+    /// Makes the follower also deliver messages of the first generation that its readers have not read yet. It always
+    /// does so in later generations, and if there was no segment at first.
     void begin_with_oldest() { begin_ = shm::RingFollower::Begin::oldest; }
 
     const std::string& link() const { return link_; }

@@ -11,8 +11,8 @@
 namespace tandem::command {
 namespace {
 
+// The header has all callbacks of the life cycle and of execution, so that authors see them without a manual.
 // expand_template() replaces @NAME@ by the component's name.
-// Contains all callbacks of the life cycle and of execution, so that authors see them without a manual.
 constexpr char header[] = R"(#ifndef @NAME@_H_
 #define @NAME@_H_
 

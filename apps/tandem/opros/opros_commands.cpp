@@ -6,7 +6,7 @@
 #include "apps/tandem/import/commands.hpp"
 #include "apps/tandem/opros/commands.hpp"
 #include "apps/tandem/opros/running/running_commands.hpp"
-#include "host/opros/engine/load/plugin_dirs.hpp"
+#include "host/plugin/plugin_dirs.hpp"
 
 #include <memory>
 
@@ -22,7 +22,7 @@ void add_inspect_options(CLI::App* command, InspectOptions& options, const char*
 
 // Folders from the command line come first, as in opros_host.
 void append_default_dirs(InspectOptions& options) {
-    const auto dirs = engine::default_plugin_dirs();
+    const auto dirs = plugin::default_plugin_dirs("opros");
     options.plugin_dirs.insert(options.plugin_dirs.end(), dirs.begin(), dirs.end());
 }
 

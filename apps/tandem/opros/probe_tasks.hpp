@@ -31,7 +31,7 @@ std::vector<std::string> check_connections_in_child(const std::vector<std::strin
                                                     const std::map<std::string, std::string>& port_tables,
                                                     const InspectOptions& options);
 
-/// The tasks themselves. They call report.begin_stage() before each stage and report.finish() with the result.
+/// Perform the tasks. They call report.begin_stage() before each stage and report.finish() with the result.
 /// serve_probe() reports their exceptions to the parent. [child process]
 void serve_describe(const plugin::ProbeTask& task, plugin::ProbeReport& report);
 void serve_connect(const plugin::ProbeTask& task, plugin::ProbeReport& report);

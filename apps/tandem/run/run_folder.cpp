@@ -3,11 +3,11 @@
 
 #include "apps/tandem/build/folder/source_text.hpp"
 #include "apps/tandem/run/node_settings.hpp"
-#include "host/opros/engine/load/plugin_dirs.hpp"
 #include "host/opros/engine/profile/flatten_composites.hpp"
 #include "host/opros/engine/profile/profile_kind.hpp"
 #include "host/opros/engine/profile/setup_error.hpp"
 #include "host/opros/engine/profile/xml_file.hpp"
+#include "host/plugin/plugin_dirs.hpp"
 #include "host/rtm/runtime/configuration/conf_check.hpp"
 #include "host/rtm/runtime/configuration/conf_file.hpp"
 #include "host/text/join.hpp"
@@ -104,7 +104,7 @@ RunFolder find_run_folder(const fs::path& folder) {
 
 engine::NodePart find_node_part(const RunFolder& folder, const RunOptions& options) {
     auto dirs = options.plugin_dirs;
-    for (const auto& dir : engine::default_plugin_dirs()) dirs.push_back(dir);
+    for (const auto& dir : plugin::default_plugin_dirs("opros")) dirs.push_back(dir);
     const auto application = engine::read_application_profile(folder.application);
     return engine::node_part(engine::flatten_composites(application, dirs), options.node);
 }

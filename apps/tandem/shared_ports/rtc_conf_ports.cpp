@@ -2,9 +2,9 @@
 #include "apps/tandem/shared_ports/rtc_conf_ports.hpp"
 
 #include "host/local/local_endpoint.hpp"
+#include "host/plugin/plugin_dirs.hpp"
 #include "host/plugin/probe.hpp"
 #include "host/rtm/runtime/configuration/component_arguments.hpp"
-#include "host/rtm/runtime/configuration/default_plugin_dirs.hpp"
 #include "host/rtm/runtime/manager/manager_options.hpp"
 #include "proxy/interceptor/rtc_port.hpp"
 
@@ -48,7 +48,7 @@ RTC::Manager& start_manager(const std::string& conf, const plugin::ProbeTask& ta
                             plugin::ProbeReport& report) {
     RTC::Manager::Options options;
     for (const auto& dir : task.arguments) options.plugin_path.emplace_back(dir);
-    for (const auto& dir : RTC::default_plugin_dirs()) options.plugin_path.push_back(dir);
+    for (const auto& dir : plugin::default_plugin_dirs("rtm")) options.plugin_path.push_back(dir);
     options.on_setup_step = [&report](const std::string& step) { report.begin_stage(step); };
     coil::vstring arguments{"tandem", "-f", conf, "-a"};
     for (const char* setting : {"naming.enable:NO", "logger.enable:NO", "manager.is_master:NO",

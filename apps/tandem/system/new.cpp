@@ -6,7 +6,7 @@
 #include "apps/tandem/system/commands.hpp"
 #include "apps/tandem/system/staged_folder.hpp"
 #include "host/opros/engine/load/load_component.hpp"
-#include "host/opros/engine/load/plugin_dirs.hpp"
+#include "host/plugin/plugin_dirs.hpp"
 #include "shm/segment/segment_file.hpp"
 
 #include <fmt/ranges.h>
@@ -38,7 +38,7 @@ Part find_part(const fs::path& place, const NewSystemOptions& options) {
     if (files.opros) {
         part.opros = std::move(*files.opros);
         engine::require_opros_component(
-            engine::find_component_library(part.opros, engine::default_plugin_dirs()));
+            engine::find_component_library(part.opros, plugin::default_plugin_dirs("opros")));
     } else if (!files.modules.empty()) {
         part.module = select_module(files, place);
         require_conf_path(part.module);

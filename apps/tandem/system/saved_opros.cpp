@@ -2,9 +2,9 @@
 #include "apps/tandem/opros/running/opros_hosts.hpp"
 #include "apps/tandem/output/print.hpp"
 #include "apps/tandem/system/running_system.hpp"
-#include "host/opros/engine/load/plugin_dirs.hpp"
 #include "host/opros/engine/profile/application_profile.hpp"
 #include "host/opros/engine/profile/xml_file.hpp"
+#include "host/plugin/plugin_dirs.hpp"
 
 #include <fmt/format.h>
 #include <pugixml.hpp>
@@ -67,7 +67,7 @@ std::vector<std::string> save_opros(const RunningSystem& system, const fs::path&
         if (component == application.subcomponents.end()) continue;
         try {
             const fs::path file =
-                engine::find_component_profile(application, *component, engine::default_plugin_dirs());
+                engine::find_component_profile(application, *component, plugin::default_plugin_dirs("opros"));
             node.child("reference")
                 .text()
                 .set(file.parent_path() == system.application.parent_path() ? file.filename().c_str()

@@ -20,10 +20,10 @@ class ProvidedMethodInterface;
 class MethodDescription {
   public:
     virtual ~MethodDescription() {}
-    /// The result. Not called for void.
+    /// Returns the archive for the result. Not called for void.
     virtual opros::archive::iarchive& result() = 0;
-    /// The next argument. `writable`: the method takes it by a non-const reference or pointer, so the caller may get
-    /// it back with another value.
+    /// Returns the archive for the next argument. `writable`: the method takes it by a non-const reference or pointer,
+    /// so the caller may get it back with another value.
     virtual opros::archive::iarchive& argument(bool writable) = 0;
 };
 

@@ -7,9 +7,9 @@
 #include "host/opros/control/control_server.hpp"
 #include "host/opros/engine/application.hpp"
 #include "host/opros/engine/load/load_probe.hpp"
-#include "host/opros/engine/load/plugin_dirs.hpp"
 #include "host/opros/program/shutdown_watcher.hpp"
 #include "host/options/opros_host_options.hpp"
+#include "host/plugin/plugin_dirs.hpp"
 #include "host/process/bounded_call.hpp"
 #include "host/process/exit/exit_guard.hpp"
 #include "host/process/exit/exit_process.hpp"
@@ -39,7 +39,7 @@ sigset_t shutdown_signals() {
 tandem::engine::ApplicationOptions application_options(const OprosHostOptions& options) {
     tandem::engine::ApplicationOptions result;
     result.plugin_dirs = options.plugin_dirs;
-    const auto dirs = tandem::engine::default_plugin_dirs();
+    const auto dirs = tandem::plugin::default_plugin_dirs("opros");
     result.plugin_dirs.insert(result.plugin_dirs.end(), dirs.begin(), dirs.end());
     result.probe = options.probe.probe_options();
     result.executors.cpu = options.real_time.cpu;

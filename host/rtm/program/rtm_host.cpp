@@ -6,13 +6,13 @@
 #include "host/log/log.hpp"
 #include "host/log/output_failures.hpp"
 #include "host/options/rtm_host_options.hpp"
+#include "host/plugin/plugin_dirs.hpp"
 #include "host/process/exit/exit_guard.hpp"
 #include "host/process/exit/exit_process.hpp"
 #include "host/process/ready_line.hpp"
 #include "host/process/start_thread.hpp"
 #include "host/process/step_timer.hpp"
 #include "host/rt/lock_step/step_server.hpp"
-#include "host/rtm/runtime/configuration/default_plugin_dirs.hpp"
 #include "host/rtm/runtime/logging/logger.hpp"
 #include "host/rtm/runtime/manager/manager_options.hpp"
 #include "host/rtm/runtime/manager/probe_module.hpp"
@@ -39,7 +39,7 @@ using tandem::options::RtmHostOptions;
 // --plugin-path comes first.
 std::vector<fs::path> plugin_path(const RtmHostOptions& a) {
     std::vector<fs::path> dirs = a.plugin_path;
-    const auto more = RTC::default_plugin_dirs();
+    const auto more = tandem::plugin::default_plugin_dirs("rtm");
     dirs.insert(dirs.end(), more.begin(), more.end());
     return dirs;
 }

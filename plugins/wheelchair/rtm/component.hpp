@@ -81,38 +81,24 @@ struct Parameters {
 /// Returns the component profile for the manager and for tools such as RTSystemEditor.
 inline coil::Properties profile(const char* name, const char* description) {
     // OpenRTM-aist's tools expect kind, max_instance and similar keys. conf.default.* are the default set.
-    const char* const spec[] = {"implementation_id",
-                                name,
-                                "type_name",
-                                name,
-                                "description",
-                                description,
-                                "version",
-                                "1.0.0",
-                                "vendor",
-                                "Tandem",
-                                "category",
-                                "wheelchair",
-                                "activity_type",
-                                "PERIODIC",
-                                "kind",
-                                "DataFlowComponent",
-                                "max_instance",
-                                "0",
-                                "language",
-                                "C++",
-                                "lang_type",
-                                "compile",
-                                "conf.default.scenario",
-                                "step20",
-                                "conf.default.joystick_file",
-                                "",
-                                "conf.default.clock",
-                                "monotonic",
-                                "conf.default.trace",
-                                "",
-                                ""};
-    return coil::Properties(spec);
+    const char* const spec[][2] = {{"implementation_id", name},
+                                   {"type_name", name},
+                                   {"description", description},
+                                   {"version", "1.0.0"},
+                                   {"vendor", "Tandem"},
+                                   {"category", "wheelchair"},
+                                   {"activity_type", "PERIODIC"},
+                                   {"kind", "DataFlowComponent"},
+                                   {"max_instance", "0"},
+                                   {"language", "C++"},
+                                   {"lang_type", "compile"},
+                                   {"conf.default.scenario", "step20"},
+                                   {"conf.default.joystick_file", ""},
+                                   {"conf.default.clock", "monotonic"},
+                                   {"conf.default.trace", ""}};
+    coil::Properties properties;
+    for (const auto& entry : spec) properties.setDefault(entry[0], entry[1]);
+    return properties;
 }
 
 /// Runs a life-cycle callback. Converts an exception to one line on standard error and RTC_ERROR.

@@ -44,7 +44,7 @@ class CdrOarchive final : public opros::archive::oarchive {
 /// archive_type_exception if the bytes do not contain the requested value.
 class CdrIarchive final : public opros::archive::iarchive {
   public:
-    /// `has_time`: for a value that begins with RTM's time. The time comes from `time`, not from the payload.
+    /// `has_time`: for a value that begins with RTM's time. The time comes from `time` (wire::pack_time()), not from `in`.
     explicit CdrIarchive(wire::CdrReader in, std::uint64_t time = 0, bool has_time = false)
         : in_(in), time_(time), time_words_left_(has_time ? 2 : 0) {}
 

@@ -5,7 +5,7 @@
 
 namespace tandem::adaptor {
 
-/// The type code of an OPRoS primitive. `long` has the code of its size, because both hosts run on one machine and the same
+/// Returns the type code of an OPRoS primitive. `long` has the code of its size, because both hosts run on one machine and the same
 /// source must mean the same on both.
 template <class T>
 constexpr char code_of() {

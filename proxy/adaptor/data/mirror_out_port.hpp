@@ -36,8 +36,8 @@ class MirrorOutPort final : public OutputDataPortInterface, private DataPortList
     ReturnType marshal(opros_any&, std::string&) override { return OPROS_UNSUPPORTED_METHOD; }
 
     bool checkType(opros_any&) override { return true; }
-    /// Called when the host connects this port. Compares the target's type with the peer's signature and becomes the
-    /// target's source.
+    /// Called when the host connects this port. Returns false if the target's type does not match the peer's signature;
+    /// typeError() then has the reason. Otherwise becomes the target's source.
     bool checkType(DataPort* target) override;
     std::string typeError() const override { return type_error_; }
     /// Returns the reason of the first refused connection; empty if none was refused.

@@ -11,7 +11,7 @@ class ComponentDirectory;
 
 namespace tandem::adaptor::engine {
 
-/// In a real engine no component learns of the others, or that the engine is ending.
+/// Stands in for the directory in a real engine, which tells no component about the others, or about its own end.
 class DirectoryUser {
   protected:
     static ComponentDirectory* directory() { return nullptr; }

@@ -20,7 +20,7 @@ class MirrorEventInPort final : public MirrorEventPortBase {
     using MirrorEventPortBase::push;
 
   private:
-    /// Compares the type with the peer's signature.
+    /// Returns whether the type matches the peer's signature.
     bool accept(const opros_any& sample) override;
 
     std::mutex content_mutex_; ///< a connection may be made while another one sends

@@ -33,8 +33,8 @@ class MirrorEventOutPort final : public OutputEventPortInterface, private DataPo
     ReturnType pushEvent(unsigned char*, int) override { return OPROS_UNSUPPORTED_METHOD; }
     ReturnType marshal(Event*, std::string&) override { return OPROS_UNSUPPORTED_METHOD; }
 
-    /// Called when the host connects this port. Compares the target's type with the peer's signature. All targets of one
-    /// port have the same type.
+    /// Called when the host connects this port. Returns whether the target's type matches the peer's signature. All targets
+    /// of one port have the same type.
     bool checkType(EventPort* target) override;
     /// Called by the target with an event of its type. Later events are copies of it.
     bool checkType(Event* event) override;

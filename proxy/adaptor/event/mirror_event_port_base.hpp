@@ -24,7 +24,7 @@ class MirrorEventPortBase : public engine::ExplainingPort<InputEventPortInterfac
     ReturnType push(opros::archive::iarchive&) override { return OPROS_UNSUPPORTED_METHOD; }
     ReturnType pushEvent(unsigned char*, int) override { return OPROS_UNSUPPORTED_METHOD; }
 
-    /// Called when the host connects this port.
+    /// Called when the host connects this port. Returns whether the type of the event's content fits.
     bool checkType(EventPort* source) override {
         return !engine::ports_show_content || accept(content_of(*source));
     }

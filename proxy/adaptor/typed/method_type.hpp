@@ -20,8 +20,8 @@ class RemoteOperation {
   public:
     virtual ~RemoteOperation() = default;
 
-    /// The implementation of a provided method with these C++ types. Throws MethodInvokeException, one line, unless the
-    /// reply is ok.
+    /// Implements a provided method with these C++ types by a call of the operation. Throws MethodInvokeException, one
+    /// line, unless the reply is ok.
     template <class R, class... P>
     R call_method(P... arguments) {
         wire::MessageBuffer buffer, memory;

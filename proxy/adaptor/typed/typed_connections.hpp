@@ -27,7 +27,8 @@ class TypedConnections {
     std::mutex& mutex() const { return mutex_; }
     /// Returns nullptr if the type is unknown. With the mutex held, or in the notifier thread.
     const ValueType* type() const { return type_; }
-    /// With the mutex held, like set_type(), which is only for a mirror that does not listen.
+    /// Returns whether the mirror listens to its channel. Requires the mutex. So does set_type(), which a mirror that
+    /// listens must not call.
     bool listens() const { return listens_; }
     void set_type(const ValueType* type) { type_ = type; }
 

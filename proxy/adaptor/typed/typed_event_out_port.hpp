@@ -32,7 +32,7 @@ class TypedEventOutPort final : public OutputEventPortInterface, private engine:
     ReturnType marshal(Event*, std::string&) override { return OPROS_UNSUPPORTED_METHOD; }
 
     /// Called when the engine connects this port. Asks the target for an event of its type, and compares it with the peer's
-    /// signature. Logs a line if they do not match.
+    /// signature. If they do not match, logs a line and returns false.
     bool checkType(EventPort* target) override;
     bool checkType(Event* event) override;
 

@@ -28,8 +28,8 @@ class TypedInPort final : public InputDataPortInterface {
     ReturnType push(opros::archive::iarchive&) override { return OPROS_UNSUPPORTED_METHOD; }
     ReturnType pushData(unsigned char*, int) override { return OPROS_UNSUPPORTED_METHOD; }
 
-    /// Called by the source when the engine connects it, with a sample of the values to push. Logs a line if its signature
-    /// does not match the peer's.
+    /// Called by the source when the engine connects it, with a sample of the values to push. If its signature does not match
+    /// the peer's, logs a line and returns false.
     bool checkType(opros_any& sample) override;
     bool checkType(DataPort*) override { return true; }
     /// Returns the reason of the first refused connection; empty if none was refused.

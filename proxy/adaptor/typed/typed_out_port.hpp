@@ -32,7 +32,7 @@ class TypedOutPort final : public OutputDataPortInterface, private engine::Arriv
     ReturnType marshal(opros_any&, std::string&) override { return OPROS_UNSUPPORTED_METHOD; }
 
     /// Called when the engine connects this port. Asks the target for its type, and compares it with the peer's signature.
-    /// Logs a line if they do not match.
+    /// If they do not match, logs a line and returns false.
     bool checkType(DataPort* target) override;
     /// Called by the target with a value of its type.
     bool checkType(opros_any& sample) override;

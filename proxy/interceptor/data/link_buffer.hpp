@@ -93,8 +93,8 @@ class LinkBuffer final : public engine::BufferBase {
     template <class Read>
     RTC::BufferStatus read_or_wait(Read&& read_one);
     RTC::BufferStatus copy_message(const shm::Record& record, RTC::ByteData& message);
-    /// Without a peer the message is dropped, and the RTC gets the status of an unconnected port, so that its write() does
-    /// not fail while the other host restarts.
+    /// Returns the status that the RTC gets. Without a peer, it is that of an unconnected port: the message is dropped, but
+    /// write() does not fail while the other host restarts.
     RTC::BufferStatus write_status(bool written) const {
         return channel_.writer->is_success(written) ? RTC::BufferStatus::OK : RTC::BufferStatus::FULL;
     }

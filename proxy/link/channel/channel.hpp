@@ -133,7 +133,7 @@ class ChannelWriter {
         const std::optional<std::size_t> used = fill(bound_->ring.scratch().first(bytes));
         return used && publish(*used, stamp);
     }
-    /// Publishes the first `bytes` of the ring's scratch memory.
+    /// Publishes the first `bytes` of the ring's scratch memory. Returns false if the message was refused.
     bool publish(std::size_t bytes, std::uint64_t stamp) {
         if (attends_ || rt::rehearsing()) [[unlikely]]
             return publish_attending(bytes, stamp);
@@ -234,7 +234,7 @@ class ChannelReader {
         use(*record);
         return true;
     }
-    /// For readers that read several messages or may rehearse: lock the mutex, then call read_locked() and decode. The
+    /// Returns the mutex, for readers that read several messages or may rehearse: lock it, then call read_locked() and decode. The
     /// record is valid while the lock is held. In a rehearsal read_locked() returns the last message again.
     rt::ShortMutex& mutex() { return mutex_; }
     const shm::Record* read_locked() {
@@ -295,7 +295,7 @@ class ChannelReader {
         set_depth_locked(messages);
     }
     void set_depth_locked(std::uint64_t messages);
-    /// For several targets of one channel, see shm::RingReader::set_room(). Require the lock.
+    /// Sets the room for several targets of one channel, see shm::RingReader::set_room(). Requires the lock.
     void set_room_locked(std::optional<std::uint64_t> messages);
     bool sender_waits_locked() const { return bound_ && bound_->ring.writer_waits_for_room(); }
     /// Removes all waiting messages from the ring unread. Returns their number. [any-thread]

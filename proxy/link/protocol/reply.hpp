@@ -41,6 +41,7 @@ struct ReplyView {
 
     Reply copy() const { return {status, {bytes.begin(), bytes.end()}}; }
 };
+/// Copies a reply into `memory`. The result is valid until `memory` is used again.
 inline ReplyView copy_to(wire::MessageBuffer& memory, const Reply& reply) {
     const auto bytes = memory.room_for(reply.bytes.size());
     wire::copy_block(bytes.data(), reply.bytes.data(), bytes.size());

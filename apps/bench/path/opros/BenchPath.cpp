@@ -1,55 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // The OPRoS component whose instructions are counted: it performs one operation per cycle, between two marks.
 #include <OPRoSInclude.h>
-#include <ProvidedMethod.h>
-#include <ProvidedServicePort.h>
-#include <RequiredMethod.h>
-#include <RequiredServicePort.h>
 #include <ServiceUtils.h>
 
 #include "apps/bench/path/path_mark.hpp"
+#include "apps/bench/tandem/opros/doubler.hpp"
 
 #include <algorithm>
 #include <array>
 #include <memory>
 
+using tandem::bench::DoublerProvided;
+using tandem::bench::DoublerRequired;
 using tandem::bench::mark;
 using tandem::bench::PathMark;
 
-namespace {
-
-/// The interface of the service.
-class IDoubler {
-  public:
-    virtual ~IDoubler() {}
-    virtual double twice(double value) = 0;
-};
-
-// The two classes below are written as OPRoS's generators write service ports.
-class DoublerProvided : public ProvidedServicePort {
-  public:
-    explicit DoublerProvided(IDoubler* owner) {
-        addMethod("twice", makeProvidedMethod(&IDoubler::twice, owner, "twice"));
-    }
-};
-
-class DoublerRequired : public RequiredServicePort {
-  public:
-    DoublerRequired() {
-        Method* method = makeRequiredMethod(&DoublerRequired::twice, "twice");
-        addMethod("twice", method);
-        twice_ = reinterpret_cast<RequiredMethod<double>*>(method);
-    }
-    double twice(double value) { return (*twice_)(value); }
-
-  private:
-    RequiredMethod<double>* twice_;
-};
-
-} // namespace
-
 /// Its property `role` selects what it does: send, receive, call, or only answer calls.
-class BenchPath : public Component, public IDoubler {
+class BenchPath : public Component, public tandem::bench::IDoubler {
   public:
     BenchPath() {
         addPort("out", &out_);

@@ -1,58 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/bench/tandem/opros/BenchParts.hpp"
 
+#include "apps/bench/tandem/opros/doubler.hpp"
+
 #include <Component.h>
 #include <EventData.h>
 #include <InputDataPort.h>
 #include <InputEventPort.h>
 #include <OutputDataPort.h>
 #include <OutputEventPort.h>
-#include <ProvidedMethod.h>
-#include <ProvidedServicePort.h>
-#include <RequiredMethod.h>
-#include <RequiredServicePort.h>
 
 #include <atomic>
 #include <cstdlib>
 #include <ctime>
 
+using tandem::bench::DoublerProvided;
+using tandem::bench::DoublerRequired;
+
 namespace {
-
-/// The interface of the service that call() uses.
-class IDoubler {
-  public:
-    virtual ~IDoubler() {}
-    virtual double twice(double value) = 0;
-};
-
-// The two classes below are written as OPRoS's generators write service ports: as a component's own code.
-/// The provided side: calls go to the owner.
-class DoublerProvided : public ProvidedServicePort, public IDoubler {
-  public:
-    explicit DoublerProvided(IDoubler* owner) {
-        Method* method = makeProvidedMethod(&IDoubler::twice, owner, "twice");
-        addMethod("twice", method);
-        twice_ = reinterpret_cast<ProvidedMethod<double>*>(method);
-    }
-    double twice(double value) override { return (*twice_)(value); }
-
-  private:
-    ProvidedMethod<double>* twice_;
-};
-
-/// The required side: calls go to the connected service port.
-class DoublerRequired : public RequiredServicePort {
-  public:
-    DoublerRequired() {
-        Method* method = makeRequiredMethod(&DoublerRequired::twice, "twice");
-        addMethod("twice", method);
-        twice_ = reinterpret_cast<RequiredMethod<double>*>(method);
-    }
-    double twice(double value) { return (*twice_)(value); }
-
-  private:
-    RequiredMethod<double>* twice_;
-};
 
 std::int64_t monotonic_ns() {
     timespec now;
@@ -61,7 +26,7 @@ std::int64_t monotonic_ns() {
 }
 
 /// Connected to another instance, or (BenchTick.xml) alone and periodic.
-class Parts : public Component, public BenchParts, public IDoubler {
+class Parts : public Component, public BenchParts, public tandem::bench::IDoubler {
   public:
     Parts() : required_(new DoublerRequired) {
         addPort("out", &out_);

@@ -73,7 +73,7 @@ class Cells {
 class CellRecord {
   public:
     CellRecord() { lateness_.reserve(most); }
-    /// The first cycle does not belong to a tick.
+    /// Adds the lateness of a cycle. Ignores the first one, which does not belong to a tick.
     void cycle() {
         if (!std::exchange(has_begun_, true))
             Cells::all().begin();

@@ -62,14 +62,14 @@ class Control {
     Control& operator=(const Control&) = delete;
 
     const std::string& token() const { return token_; }
-    /// Compares in constant time.
+    /// Returns whether the text is the token. Compares in constant time.
     bool is_token(std::string_view text) const;
 
     /// Executes a JSON request. Calls `reply` once, now or later; for a stick position without an id only if it could not
     /// be sent. Each reply has the request's id.
     void handle(const std::string& text, const Reply& reply);
 
-    /// For clients of foxglove.websocket.v1. Two programs, so that a long call does not delay messages.
+    /// Return the programs for clients of foxglove.websocket.v1. There are two, so that a long call does not delay messages.
     RequestProgram& publishing() { return publishing_; }
     RequestProgram& calling() { return calling_; }
 

@@ -37,7 +37,7 @@ class InventoryReader {
     std::map<std::uint32_t, Process> processes_;
 };
 
-/// Returns the parts that a text of an inventory lists, sorted by name. Lines that are no parts count as left out.
+/// Adds the parts that the text of an inventory lists to `inventory`, sorted by name. Counts other lines as left out.
 void parse_inventory(const std::string& text, HostInventory& inventory);
 
 } // namespace tandem::monitor

@@ -269,20 +269,6 @@ nlohmann::json active_values(const RemoteComponent& component) {
     return nlohmann::json::object();
 }
 
-/// Converts exceptions, including those of CORBA, to a one-line error.
-template <class Action>
-void with_errors(const RemoteComponent& component, Action action) {
-    try {
-        action();
-    } catch (const SDOPackage::InvalidParameter& e) {
-        throw std::runtime_error(component.instance + ": " + e.description.in());
-    } catch (const SDOPackage::InternalError& e) {
-        throw std::runtime_error(component.instance + ": " + e.description.in());
-    } catch (const CORBA::Exception& e) {
-        throw_corba_error(component.address, e);
-    }
-}
-
 /// Returns the values of the active configuration sets. `components`: a list of {pid, component}. Returns {values: a
 /// list of {pid, component, values: {NAME: TEXT}}, errors: [one line each]}. A component that does not answer does not
 /// affect the others.
@@ -292,7 +278,7 @@ nlohmann::json read_parameters(HostComponents& components, const nlohmann::json&
         try {
             const RemoteComponent component = components.find(wanted.at("pid").get<std::uint32_t>(),
                                                               wanted.at("component").get<std::string>());
-            with_errors(component, [&] {
+            call_configuration(component, [&] {
                 nlohmann::json entry = wanted;
                 entry["values"] = active_values(component);
                 reply["values"].push_back(entry);
@@ -312,7 +298,7 @@ void set_parameters(HostComponents& components, const nlohmann::json& request) {
     ConfOptions options;
     for (const auto& [name, value] : request.at("values").items())
         options.values.push_back(name + "=" + value.get<std::string>());
-    with_errors(component, [&] {
+    call_configuration(component, [&] {
         SDOPackage::Configuration_var configuration = component.object->get_configuration();
         change_configuration(configuration.in(), options, is_in_tandem_host(component.object.in()));
     });

@@ -177,16 +177,13 @@ nlohmann::json sets_json(SDOPackage::Configuration_ptr configuration) {
 int rtm_conf(const RtmClientOptions& client_options, const ConfOptions& options) {
     const RtmClient client(client_options);
     const RemoteComponent component = client.find_component(options.component);
-    try {
+    call_configuration(component, [&] {
         SDOPackage::Configuration_var configuration = component.object->get_configuration();
         change_configuration(configuration.in(), options,
                              options.values.empty() || is_in_tandem_host(component.object.in()));
         // Prints the component's actual values, not the requested ones.
         const nlohmann::json sets = sets_json(configuration.in());
-        if (client_options.json) {
-            print_json(sets);
-            return 0;
-        }
+        if (client_options.json) return print_json(sets);
         for (const auto& set : sets) {
             if (!options.set.empty() && set["set"] != options.set) continue;
             print_text(fmt::format("{}{}\n", set["set"].get<std::string>(),
@@ -194,14 +191,8 @@ int rtm_conf(const RtmClientOptions& client_options, const ConfOptions& options)
             for (const auto& [name, value] : set["values"].items())
                 print_text(fmt::format("  {}={}\n", name, value.get<std::string>()));
         }
-        return 0;
-    } catch (const SDOPackage::InvalidParameter& e) {
-        throw std::runtime_error(component.instance + ": " + e.description.in());
-    } catch (const SDOPackage::InternalError& e) {
-        throw std::runtime_error(component.instance + ": " + e.description.in());
-    } catch (const CORBA::Exception& e) {
-        throw_corba_error(component.address, e);
-    }
+    });
+    return 0;
 }
 
 } // namespace tandem::command

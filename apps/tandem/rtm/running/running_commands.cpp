@@ -31,17 +31,13 @@ void add_tls(CLI::App& command, RtmClientOptions& client) {
         ->envname("TANDEM_TLS_KEY");
 }
 
-// Each function below declares one group of sub-commands. Options live in a shared_ptr that the callbacks hold, because
-// CLI11 fills them after these functions have returned.
 // The last lines of each command's --help.
 constexpr const char* addresses =
-    "COMPONENT is rtcname://HOST:PORT/PATH/NAME.rtc (a name server), rtcloc://HOST:PORT/NAME (a manager), a\n"
-    "path PATH/NAME.rtc in the default name server, or a NAME. A NAME is searched in the name servers and "
-    "in\n"
-    "this user's managers on this machine. With --nameserver or --manager only those are searched, and all "
-    "of\n"
-    "them must answer. A port is COMPONENT:PORT.\n"
-    "Exit code 1 if a component or server does not exist or does not answer in time.";
+    R"(COMPONENT is rtcname://HOST:PORT/PATH/NAME.rtc (a name server), rtcloc://HOST:PORT/NAME (a manager), a
+path PATH/NAME.rtc in the default name server, or a NAME. A NAME is searched in the name servers and in
+this user's managers on this machine. With --nameserver or --manager only those are searched, and all of
+them must answer. A port is COMPONENT:PORT.
+Exit code 1 if a component or server does not exist or does not answer in time.)";
 
 // Adds a sub-command with the options common to all.
 CLI::App* add_running_command(CLI::App& rtm, const char* name, const char* brief, RtmClientOptions& client,
@@ -63,6 +59,20 @@ CLI::App* add_running_command(CLI::App& rtm, const char* name, const char* brief
     return command;
 }
 
+// The options of a command, and those common to all.
+template <class Options>
+struct Running {
+    RtmClientOptions client;
+    Options options;
+};
+
+// Makes the command run a function with its options. The callback holds them, because CLI11 fills them later.
+template <class Options>
+void run_when_chosen(CLI::App* command, Action& selected, const std::shared_ptr<Running<Options>>& chosen,
+                     int (*run)(const RtmClientOptions&, const Options&)) {
+    command->callback([=, &selected] { selected = [=] { return run(chosen->client, chosen->options); }; });
+}
+
 // list, tree and info: what is there.
 void add_listings(CLI::App& rtm, Action& selected) {
     auto list = std::make_shared<RtmClientOptions>();
@@ -72,30 +82,21 @@ void add_listings(CLI::App& rtm, Action& selected) {
     auto tree = std::make_shared<RtmClientOptions>();
     add_running_command(rtm, "tree", "Lists components with their ports and connections", *tree)
         ->callback([=, &selected] { selected = [tree] { return rtm_tree(*tree); }; });
-    struct Info {
-        RtmClientOptions client;
-        std::string component;
-    };
-    auto info = std::make_shared<Info>();
+    auto info = std::make_shared<Running<std::string>>();
     CLI::App* command = add_running_command(
         rtm, "info", "Shows a component: profile, contexts, ports, connections", info->client);
-    command->add_option("COMPONENT", info->component, "component, see below")->required();
-    command->callback(
-        [=, &selected] { selected = [info] { return rtm_info(info->client, info->component); }; });
+    command->add_option("COMPONENT", info->options, "component, see below")->required();
+    run_when_chosen(command, selected, info, rtm_info);
 }
 
 // activate, deactivate, reset and exit: the same command line for all four.
 void add_transitions(CLI::App& rtm, Action& selected) {
-    struct Options {
-        RtmClientOptions client;
-        std::vector<std::string> components;
-    };
     auto add_transition = [&](const char* name, const char* brief, Transition transition) {
-        auto options = std::make_shared<Options>();
+        auto options = std::make_shared<Running<std::vector<std::string>>>();
         CLI::App* command = add_running_command(rtm, name, brief, options->client);
-        command->add_option("COMPONENT", options->components, "components, see below")->required();
+        command->add_option("COMPONENT", options->options, "components, see below")->required();
         command->callback([=, &selected] {
-            selected = [=] { return rtm_transition(options->client, options->components, transition); };
+            selected = [=] { return rtm_transition(options->client, options->options, transition); };
         });
     };
     add_transition("activate", "Activates components and waits until they are active", Transition::activate);
@@ -107,11 +108,7 @@ void add_transitions(CLI::App& rtm, Action& selected) {
 
 // connect and disconnect.
 void add_connections(CLI::App& rtm, Action& selected) {
-    struct Connect {
-        RtmClientOptions client;
-        ConnectOptions options;
-    };
-    auto connect = std::make_shared<Connect>();
+    auto connect = std::make_shared<Running<ConnectOptions>>();
     CLI::App* command = add_running_command(
         rtm, "connect", "Connects the first port to each of the others", connect->client,
         "Properties are those of manager.components.preconnect, for example dataflow_type=pull, "
@@ -120,30 +117,19 @@ void add_connections(CLI::App& rtm, Action& selected) {
     command->add_option("-p,--property", connect->options.properties, "KEY=VALUE (repeatable)")
         ->allow_extra_args(false);
     command->add_option("--name", connect->options.name, "name of the connection");
-    command->callback(
-        [=, &selected] { selected = [connect] { return rtm_connect(connect->client, connect->options); }; });
+    run_when_chosen(command, selected, connect, rtm_connect);
 
-    struct Disconnect {
-        RtmClientOptions client;
-        DisconnectOptions options;
-    };
-    auto disconnect = std::make_shared<Disconnect>();
+    auto disconnect = std::make_shared<Running<DisconnectOptions>>();
     command = add_running_command(rtm, "disconnect",
                                   "Disconnects all connections of a port, or those between two ports",
                                   disconnect->client);
     command->add_option("PORT", disconnect->options.ports, "one port or two")->required()->expected(1, 2);
     command->add_option("--id", disconnect->options.id, "only the connection with this id");
-    command->callback([=, &selected] {
-        selected = [disconnect] { return rtm_disconnect(disconnect->client, disconnect->options); };
-    });
+    run_when_chosen(command, selected, disconnect, rtm_disconnect);
 }
 
 void add_conf(CLI::App& rtm, Action& selected) {
-    struct Options {
-        RtmClientOptions client;
-        ConfOptions options;
-    };
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<Running<ConfOptions>>();
     CLI::App* command =
         add_running_command(rtm, "conf", "Shows and sets configuration parameters", options->client,
                             "A component applies new values between two executions.");
@@ -152,15 +138,11 @@ void add_conf(CLI::App& rtm, Action& selected) {
     command->add_option("--set", options->options.set,
                         "configuration set to show or change (the active one)");
     command->add_option("--activate", options->options.activate, "configuration set to activate");
-    command->callback(
-        [=, &selected] { selected = [options] { return rtm_conf(options->client, options->options); }; });
+    run_when_chosen(command, selected, options, rtm_conf);
 }
 
 // The options of cat and inject.
-struct Stream {
-    RtmClientOptions client;
-    StreamOptions options;
-};
+using Stream = Running<StreamOptions>;
 
 // allow_extra_args(false): otherwise CLI11 would take the words after --types FILE or -p KEY=VALUE as more
 // values of that option, and PORT or VALUE would be missing.
@@ -189,14 +171,13 @@ void add_streams(CLI::App& rtm, Action& selected) {
     command->add_option("--for", cat->options.timeout_s, "end after this number of seconds")
         ->check(options::number_between(0.01, 1e6));
     command->add_flag("--raw", cat->options.raw, "always print CDR bytes");
-    command->callback([=, &selected] { selected = [cat] { return rtm_cat(cat->client, cat->options); }; });
+    run_when_chosen(command, selected, cat, rtm_cat);
 
     auto inject = std::make_shared<Stream>();
     command = add_stream(
         rtm, *inject, "inject", "Sends values to an InPort",
-        "VALUE is JSON, for example {\"tm\": {\"sec\": 1}, \"data\": [1, 2.5]}. A value without braces sets "
-        "the\n"
-        "member data: `42` is a complete TimedLong. `-` reads one value from each line of standard input.");
+        R"(VALUE is JSON, for example {"tm": {"sec": 1}, "data": [1, 2.5]}. A value without braces sets the
+member data: `42` is a complete TimedLong. `-` reads one value from each line of standard input.)");
     // Not a std::vector: CLI11 would split [1,2] into two values. Values after the first one arrive as
     // extras.
     auto value = std::make_shared<std::string>();
@@ -217,21 +198,14 @@ void add_streams(CLI::App& rtm, Action& selected) {
 }
 
 void add_record(CLI::App& rtm, Action& selected) {
-    struct Record {
-        RtmClientOptions client;
-        RtmRecordOptions options;
-    };
-    auto record = std::make_shared<Record>();
+    auto record = std::make_shared<Running<RtmRecordOptions>>();
     CLI::App* command = add_running_command(
         rtm, "record", "Records OutPorts to an MCAP file", record->client,
-        "Use this for components without a link; for links, tandem record works without a connection. Each "
-        "port\n"
-        "becomes a channel /COMPONENT/PORT with its type as IDL. Components do not wait for the recorder: "
-        "their\n"
-        "host queues up to 1024 messages per port. The channel /tandem/drops counts messages dropped by the\n"
-        "recorder and by the queues of Tandem hosts; OpenRTM-aist does not report its own. Ends with Ctrl-C "
-        "or\n"
-        "SIGTERM. If the recorder is killed, the file is readable up to the last half second.");
+        R"(Use this for components without a link; for links, tandem record works without a connection. Each port
+becomes a channel /COMPONENT/PORT with its type as IDL. Components do not wait for the recorder: their
+host queues up to 1024 messages per port. The channel /tandem/drops counts messages dropped by the
+recorder and by the queues of Tandem hosts; OpenRTM-aist does not report its own. Ends with Ctrl-C or
+SIGTERM. If the recorder is killed, the file is readable up to the last half second.)");
     command->add_option("PORT", record->options.ports,
                         "COMPONENT:PORT, or COMPONENT for all its OutPorts (all OutPorts)");
     command
@@ -244,8 +218,7 @@ void add_record(CLI::App& rtm, Action& selected) {
         ->allow_extra_args(false);
     add_endpoint(*command, record->client);
     add_recording_options(*command, record->options);
-    command->callback(
-        [=, &selected] { selected = [record] { return rtm_record(record->client, record->options); }; });
+    run_when_chosen(command, selected, record, rtm_record);
 }
 
 // The monitor starts this command; users do not.

@@ -23,7 +23,7 @@ class ServiceConnection : public Connection {
     /// refuses all methods. Methods that are already bound are then unbound again.
     ServiceConnection(RequiredServicePort& required, ProvidedServicePort& provided, ComponentHost& provider);
     ~ServiceConnection() override { ServiceConnection::disconnect(); }
-    /// Later calls of a method throw. A call that is in progress ends normally.
+    /// Ends the connection: later calls of a method throw, and a call in progress ends normally. Returns true.
     bool disconnect() override;
     /// Returns, one line each, why a dynamic port refused some of the methods. Calls of these methods throw.
     const std::vector<std::string>& refusals() const { return refusals_; }

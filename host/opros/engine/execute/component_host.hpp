@@ -87,9 +87,9 @@ class ComponentHost {
     /// Ends this object's use of the library. The library is unloaded when its last user ends its use.
     void unload_library();
 
-    /// [executor] The two passes of a cycle, onExecute and onUpdated. They call nothing unless the component is ACTIVE.
-    /// An exception puts the component in ERROR; its text is returned. Otherwise the result is empty. In a rehearsal
-    /// (host/rt/rehearsal.hpp) execute() does not call the component.
+    /// [executor] Run the two passes of a cycle, onExecute and onUpdated, if the component is ACTIVE. An exception puts the
+    /// component in ERROR; they return its text, otherwise an empty string. In a rehearsal (host/rt/rehearsal.hpp)
+    /// execute() does not call the component.
     std::string execute();
     std::string update();
 
@@ -105,10 +105,10 @@ class ComponentHost {
     /// one that has been there longest counts.
     const char* current_callback() const;
 
-    /// Queue of events and non-blocking calls for the component.
+    /// Returns the queue of events and non-blocking calls for the component.
     const std::shared_ptr<TaskQueue>& task_queue() const { return task_queue_; }
 
-    /// The signal that is set when an input has arrived. Data ports set it from initialize() on.
+    /// Returns the signal that is set when an input has arrived. Data ports set it from initialize() on.
     InputSignal& input_signal() { return input_signal_; }
     /// [any-thread] Adds a port that the component adds after initialize(). Does nothing unless it is a data port.
     void add_data_port(const std::string& name, Port& port);

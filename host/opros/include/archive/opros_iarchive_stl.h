@@ -46,7 +46,7 @@ void load_map(iarchive& ar, Container& t) {
     load_each<std::pair<K, T>>(ar, [&t](std::pair<K, T>&& entry) { t.insert(std::move(entry)); });
 }
 
-// Numbers at once, like load_elements(), and with the default allocator in one call.
+// Loads all numbers at once, as load_elements() does. With the default allocator, one call does it.
 template <typename T>
 void load_vector(iarchive& ar, std::vector<T>& t, by_primitive) {
     ar.load_sequence(t);

@@ -42,7 +42,7 @@ class InputDataPortImpl {
     /// Drops all values, including those that wait in the sources.
     void clear();
 
-    /// The source must exist until remove_source() has returned.
+    /// Adds a source, which must exist until remove_source() has returned.
     void add_source(DataPortSource* source);
     void remove_source(DataPortSource* source);
     /// Returns true if a source does not notify the listener and therefore has to be polled.

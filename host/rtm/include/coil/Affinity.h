@@ -12,7 +12,7 @@ using CpuMask = std::vector<unsigned int>;
 
 bool getProcCpuAffinity(CpuMask& cpu_mask);
 bool setProcCpuAffinity(const CpuMask& cpu_mask);
-/// Parses a text such as `0,2`.
+/// Parses a text such as `0,2`. Returns false if it is invalid or the kernel refuses the mask.
 bool setProcCpuAffinity(const std::string& cpu_mask);
 bool getThreadCpuAffinity(CpuMask& cpu_mask);
 bool setThreadCpuAffinity(const CpuMask& cpu_mask);

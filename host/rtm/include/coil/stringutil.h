@@ -87,7 +87,7 @@ template <>
 bool stringTo<std::chrono::milliseconds>(std::chrono::milliseconds& val, const char* str);
 template <>
 bool stringTo<std::chrono::seconds>(std::chrono::seconds& val, const char* str);
-/// Comma-separated elements.
+/// Converts comma-separated elements. Returns false, without changing `val`, if one is invalid.
 template <typename T>
 bool stringTo(std::vector<T>& val, const char* str) {
     if (str == nullptr) return false;

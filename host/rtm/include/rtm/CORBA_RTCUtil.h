@@ -90,7 +90,7 @@ coil::Properties get_active_configuration(RTC::RTObject_ptr rtc);
 std::string get_parameter_by_key(RTC::RTObject_ptr rtc, const std::string& set_name,
                                  const std::string& parameter);
 bool set_active_configuration(RTC::RTObject_ptr rtc, const std::string& parameter, const std::string& value);
-/// Changes `set` and passes it to the component.
+/// Changes `set` and passes it to the component. Returns whether the component has accepted it.
 bool set_configuration_parameter(SDOPackage::Configuration_ptr configuration,
                                  SDOPackage::ConfigurationSet& set, const std::string& parameter,
                                  const std::string& value);

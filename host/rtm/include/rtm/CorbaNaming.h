@@ -66,7 +66,7 @@ class CorbaNaming {
 
     static void list(CosNaming::NamingContext_ptr name_cxt, CORBA::ULong how_many,
                      CosNaming::BindingList_var& bl, CosNaming::BindingIterator_var& bi);
-    /// Returns all entries of a context.
+    /// Sets `bl` to all entries of a context.
     void list(const char* string_name, CosNaming::BindingList_var& bl);
     void listByKind(const char* string_name, const char* string_kind, CosNaming::BindingList_var& bl);
 

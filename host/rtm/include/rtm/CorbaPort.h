@@ -18,12 +18,12 @@ class CorbaPort : public PortBase {
     ~CorbaPort() override;
     /// Is called with the port's properties of rtc.conf when the port is added to its component.
     void init(coil::Properties& prop);
-    /// The caller keeps ownership of `provider`, which must outlive the port. It may be any servant, including a
-    /// dynamic one.
+    /// Adds a provided interface. Returns false if the name is in use or the servant cannot be activated. The caller
+    /// keeps ownership of `provider`, which must outlive the port and may be any servant, including a dynamic one.
     bool registerProvider(const char* instance_name, const char* type_name,
                           PortableServer::ServantBase& provider);
-    /// The caller keeps ownership of `consumer`, which must outlive the port. Like registerProvider(), returns false
-    /// if the name is in use.
+    /// Adds a required interface. Returns false if the name is in use. The caller keeps ownership of `consumer`, which
+    /// must outlive the port.
     bool registerConsumer(const char* instance_name, const char* type_name, CorbaConsumerBase& consumer);
 
     void activateInterfaces() override;

@@ -13,7 +13,7 @@ class RTObject_impl;
 using RtcNewFunc = RTObject_impl* (*)(Manager*);
 using RtcDeleteFunc = void (*)(RTObject_impl*);
 
-/// A function for registerFactory(): creates a component of class T_New.
+/// Creates a component of class T_New. For registerFactory().
 template <class T_New>
 RTObject_impl* Create(Manager* manager) {
     return new T_New(manager);

@@ -38,7 +38,7 @@ class Marshal {
 class Unmarshal {
   public:
     virtual void operator()(cdrStream& in) = 0;
-    /// The current value. Instead of decoding, a message with the same number of elements may be copied over it.
+    /// Returns the current value. Instead of decoding, a message with the same number of elements may be copied over it.
     const TimedNumbers<void>& numbers() const { return m_numbers; }
 
   protected:

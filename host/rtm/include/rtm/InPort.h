@@ -38,7 +38,7 @@ class InPort : public InPortBase {
     }
     virtual bool isNew(coil::vstring& names) { return selectConnectorNames(names, true); }
     bool isEmpty() override { return InPortBase::isEmpty(); }
-    /// The opposite of isNew(), in the same forms.
+    /// Returns the opposite of isNew(), in the same forms.
     virtual bool isEmpty(std::string name) { return !isNew(name); }
     virtual bool isEmpty(coil::vstring& names) { return selectConnectorNames(names, false); }
 
@@ -49,7 +49,7 @@ class InPort : public InPortBase {
         if (m_OnRead != nullptr) (*m_OnRead)();
         return ((hasFastPath() && readInPlace()) || readConnector(nullptr)) && convertRead();
     }
-    /// Reads from the connector of this name. An empty name means read().
+    /// Reads like read(), from the connector of this name. An empty name means read().
     bool read(std::string name) override {
         if (name.empty()) return read();
         if (m_OnRead != nullptr) (*m_OnRead)();

@@ -57,7 +57,7 @@ class Manager {
 
     void setModuleInitProc(ModuleInitProc proc);
     /// Loads the modules, and creates, connects and activates the components that the configuration names. Calls the
-    /// module init procedure. Logs and skips errors of the configuration, as in OpenRTM-aist.
+    /// module init procedure. Logs and skips errors of the configuration, as in OpenRTM-aist. Returns true.
     bool activateManager();
     /// Ours: like activateManager(), but throws ManagerError at the first error.
     void activateOrThrow();
@@ -169,7 +169,7 @@ class Manager {
   private:
     explicit Manager(const Options& options);
     RTObject_impl& makeOrThrow(FactoryBase& factory);
-    /// Loads the library with the name of the component type, if there is one.
+    /// Loads the library with the name of the component type. Returns false if there is none.
     bool loadForType(const std::string& type);
     bool stopComponents(std::vector<RTObject_impl*> components);
     std::unique_ptr<Impl> m_impl;

@@ -20,7 +20,7 @@ class PortAdmin {
     bool addPort(PortBase& port);
     /// Disconnects and deactivates the port, then removes it. Returns false if it is not a port of this component.
     bool removePort(PortBase& port);
-    /// Ports of other components that this component lists as its own, like a composite.
+    /// Lists a port of another component as this one's own, like a composite. Returns false if it is already listed.
     bool addPort(PortService_ptr port);
     bool removePort(PortService_ptr port);
     void activatePorts();

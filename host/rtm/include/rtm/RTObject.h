@@ -128,7 +128,7 @@ class RTObject_impl : public virtual POA_OpenRTM::DataFlowComponent,
 
     bool addPort(PortBase& port);
     bool addPort(CorbaPort& port);
-    /// Lists a port of another component among this component's ports.
+    /// Lists a port of another component among this component's ports. Returns false if it is already listed.
     bool addPort(PortService_ptr port);
     bool removePort(PortService_ptr port);
     bool addInPort(const char* name, InPortBase& inport);

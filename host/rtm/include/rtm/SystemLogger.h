@@ -47,7 +47,8 @@ class Logger {
     static int strToLevel(const char* level);
 
     static int processLevel();
-    /// Adds a file, `stdout` or `stderr` as an output, which replaces the default standard error.
+    /// Adds a file, `stdout` or `stderr` as an output, which replaces the default, standard error. Returns false if the
+    /// file cannot be opened.
     static bool addOutput(const std::string& file_name);
     /// Ours: returns the streams that also get every log line of the process.
     static coil::LogStreamBuffer& processStreams();

@@ -7,7 +7,7 @@
 
 namespace RTC {
 
-/// The beginning of a text from outside, for one line of a message: at most 60 bytes, control characters
+/// Returns the beginning of a text from outside, for one line of a message: at most 60 bytes, with control characters
 /// replaced by `?`.
 std::string printable(const std::string& text);
 

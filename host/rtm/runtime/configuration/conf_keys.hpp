@@ -15,9 +15,9 @@ struct ConfKey {
     bool used; ///< false: accepted because OpenRTM-aist has it, without effect here (see DIFFERENCES.md)
 };
 
-/// All known keys. [any-thread]
+/// Returns all known keys. [any-thread]
 const std::vector<ConfKey>& conf_keys();
-/// The row whose pattern matches `key`; NULL when the key is unknown. [any-thread]
+/// Returns the row whose pattern matches `key`, or NULL if the key is unknown. [any-thread]
 const ConfKey* find_conf_key(const std::string& key);
 
 } // namespace RTC

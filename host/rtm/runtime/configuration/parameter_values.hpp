@@ -16,7 +16,7 @@ std::string expected_alone(const ConfigBase& parameter, const std::string& value
 /// Returns the beginning of the value that the variable takes then, for example `0`.
 std::string used_beginning(const ConfigBase& parameter, const std::string& value);
 
-/// The line that says why ConfigAdmin::setConfigurationSetValues() last returned false in this thread; empty if there
+/// Returns the line that says why ConfigAdmin::setConfigurationSetValues() last returned false in this thread; empty if there
 /// is no such configuration set. OpenRTM-aist's interface has no place for the reason.
 std::string& last_refused_value();
 

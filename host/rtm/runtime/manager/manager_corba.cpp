@@ -88,7 +88,7 @@ coil::vstring orb_arguments(const coil::Properties& config) {
     for (const auto& endpoint : tcp_endpoints(config)) add("-ORBendPoint", endpoint);
     add("-ORBclientCallTimeOutPeriod", "10000");   // ms; no call waits without end
     add("-ORBclientConnectTimeOutPeriod", "2000"); // ms; of another machine, which may be off
-    add("-ORBgiopMaxMsgSize", "67108864");         // 64 MB: camera images and point clouds fit
+    add("-ORBgiopMaxMsgSize", "67108864");         // 64 MiB: camera images and point clouds fit
     // Limits the simultaneous calls of one process, each on a separate connection: the calls of each NewestPush,
     // services, checks.
     add("-ORBmaxGIOPConnectionPerServer", "200");

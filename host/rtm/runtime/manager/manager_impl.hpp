@@ -90,7 +90,7 @@ struct Manager::Impl {
 
     RTM::ManagerActionListeners listeners;
 
-    /// A copy of the settings as they are now: tools change them while components are created from them.
+    /// Returns a copy of the present settings: tools change them while components are created from them.
     coil::Properties config_snapshot() const;
     std::string setting(const std::string& key) const;
     /// Applies a setting that a tool makes. Returns false if the key cannot have the value.
@@ -98,8 +98,8 @@ struct Manager::Impl {
     /// Returns the factory that matches the properties of `id`, or NULL. Empty properties match any. Call it with the
     /// mutex held.
     std::shared_ptr<FactoryBase> find_factory(const coil::Properties& id);
-    /// The factory for `id`, loading a library of the type's name if need be (manager.modules.search_auto).
-    /// Throws ManagerError when there is none.
+    /// Returns the factory for `id`. Loads a library of the type's name if necessary (manager.modules.search_auto).
+    /// Throws ManagerError if there is none.
     std::shared_ptr<FactoryBase> require_factory(Manager& manager, const coil::Properties& id);
     /// Throws ManagerError when the component cannot be configured or initialized.
     void set_up_component(RTObject_impl& component, const std::string& name, FactoryBase& factory,
@@ -109,7 +109,7 @@ struct Manager::Impl {
     void discard_component(RTObject_impl& component, std::shared_ptr<FactoryBase> factory);
     /// Throws ManagerError, with the names of all components, if there is no component of that name.
     RTObject_impl& require_component(Manager& manager, const std::string& name);
-    /// Folders in which modules are searched, in order.
+    /// Returns the folders in which modules are searched, in order.
     std::vector<std::filesystem::path> module_dirs() const;
     struct ModuleFile {
         std::filesystem::path file;
@@ -141,7 +141,7 @@ struct Manager::Impl {
     /// Ends everything, or waits until the thread that does so has ended. Returns false if a component was left behind.
     bool end(Manager& manager);
     struct EndNotice;
-    /// The steps of the end. Returns false if a component was left behind. [one thread]
+    /// Performs the steps of end(). Returns false if a component was left behind. [one thread]
     bool end_in_order(Manager& manager);
     /// Returns whether the manager cannot end before the caller has returned, because a component's code or a task of the
     /// main loop has called. Requires the mutex.

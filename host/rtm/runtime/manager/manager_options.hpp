@@ -31,7 +31,7 @@ struct HostOptions {
 
 struct Manager::Options : HostOptions {};
 
-/// The options of the running manager; defaults before it is started. [any-thread]
+/// Returns the options of the running manager, and the defaults before it is started. [any-thread]
 HostOptions host_options();
 
 /// Returns what did not return when the manager was shut down, for example `onExecute of Camera0, its destructor of

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The manager's remote interface, RTM::Manager of Manager.idl, as OpenRTM-aist's class ManagerServant. There
-// are no master and slave managers here: the lists are empty, adding to them is refused. [any-thread]
+// are no master and slave managers here: their lists are empty, and additions are refused. [any-thread]
 #include "host/rtm/runtime/manager/manager_impl.hpp"
 #include "host/rtm/runtime/network/access.hpp"
 #include <coil/stringutil.h>

@@ -22,8 +22,8 @@ struct ComponentCreation {
     std::string text() const;
 };
 
-/// The properties of a manager's profile that describe creations, in addition to OpenRTM-aist's `manager.*`:
-/// `creating.0.instance_name` ...
+/// Returns the properties of a manager's profile that describe creations, in addition to OpenRTM-aist's
+/// `manager.*`: `creating.0.instance_name` ...
 coil::Properties to_properties(const std::vector<ComponentCreation>& creations);
 /// Asks another process's manager. A manager of OpenRTM-aist reports none. Throws CORBA::SystemException.
 std::vector<ComponentCreation> components_being_created(RTM::Manager_ptr manager);

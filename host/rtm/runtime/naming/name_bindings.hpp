@@ -20,7 +20,7 @@ class NameBindings {
     std::vector<std::string> bind(const std::string& path, CORBA::Object_ptr object);
     /// Adds a server; update() binds the present names in it.
     void add_server(const std::string& server);
-    /// The add_server() that adds the first server calls `on_first_server`. Set it before other threads start.
+    /// Sets the function that add_server() calls for the first server. Call this before other threads start.
     void set_on_first_server(std::function<void()> on_first_server) {
         on_first_server_ = std::move(on_first_server);
     }
@@ -29,9 +29,9 @@ class NameBindings {
     /// Binds all names again in servers that were unreachable or have lost their entries. With `rebind`, also binds
     /// them in every server in which one is missing. Returns one message for each server whose state has changed.
     std::vector<std::string> update(bool rebind);
-    /// The addresses, HOST:PORT each.
+    /// Returns the addresses, HOST:PORT each.
     std::vector<std::string> servers() const;
-    /// The addresses of the servers that have answered the last call.
+    /// Returns the addresses of the servers that have answered the last call.
     std::vector<std::string> reachable_servers() const;
 
   private:

@@ -20,7 +20,7 @@ namespace RTC {
 class RemoteUnavailable : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
-    /// The same text as long as the cause is the same, for callers that log each cause once.
+    /// Returns a text that changes only with the cause, for callers that log each cause once.
     virtual std::string cause() const { return what(); }
 };
 
@@ -74,10 +74,10 @@ RTM::Manager_ptr resolve_manager(CORBA::ORB_ptr orb, const std::string& address,
 RTObject_ptr resolve_component(CORBA::ORB_ptr orb, const std::string& name,
                                const std::vector<std::string>& servers, unsigned long milliseconds = 2000);
 
-/// `a.x/b.y` as a CORBA name of two parts, id and kind each. Throws RemoteUnavailable for an empty path.
+/// Converts `a.x/b.y` to a CORBA name of two parts, with id and kind each. Throws RemoteUnavailable for an empty path.
 CosNaming::Name to_corba_name(const std::string& path);
 
-/// The cause of a failed call as the end of a message: `connection refused`, `no answer in time` ...
+/// Returns the cause of a failed call as the end of a message: `connection refused`, `no answer in time` ...
 std::string describe_exception(const CORBA::Exception& e);
 
 } // namespace RTC

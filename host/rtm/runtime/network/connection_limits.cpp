@@ -78,7 +78,7 @@ std::string_view machine_of(const omni::giopStrand& connection) {
 struct Census {
     std::size_t all = 0, of_machine = 0, closing = 0;
     omni::giopStrand* least_used = nullptr;            ///< NULL: all of them serve a call
-    omni::giopStrand* least_used_of_machine = nullptr; ///< likewise
+    omni::giopStrand* least_used_of_machine = nullptr; ///< NULL: those of the machine all serve a call
 };
 
 CORBA::ULong& last_use(omni::giopStrand& connection) { return connection.*member_of(LastUse{}); }

@@ -34,9 +34,9 @@ class SdoServices {
     bool add_consumer(const SDOPackage::ServiceProfile& profile);
     bool remove_consumer(const std::string& id);
 
-    /// The profiles of all providers; the caller owns the list.
+    /// Returns the profiles of all providers. The caller owns the list.
     SDOPackage::ServiceProfileList* profiles() const;
-    /// The profile of a provider. Throws SDOPackage::InvalidParameter when there is none of that id.
+    /// Returns the profile of a provider. Throws SDOPackage::InvalidParameter if none has that id.
     SDOPackage::ServiceProfile profile(const std::string& id) const;
 
   private:

@@ -271,36 +271,28 @@ struct ExportedPortsListener : ConfigurationSetListener {
     SDOPackage::PeriodicECOrganization& organization;
 };
 
-const char* const composite_profile[] = {"implementation_id",
-                                         "PeriodicECSharedComposite",
-                                         "type_name",
-                                         "PeriodicECSharedComposite",
-                                         "description",
-                                         "components that share one execution context",
-                                         "version",
-                                         "1.0",
-                                         "vendor",
-                                         "jp.go.aist",
-                                         "category",
-                                         "composite.PeriodicECShared",
-                                         "activity_type",
-                                         "DataFlowComponent",
-                                         "max_instance",
-                                         "0",
-                                         "language",
-                                         "C++",
-                                         "lang_type",
-                                         "compile",
-                                         "conf.default.members",
-                                         "",
-                                         "conf.default.exported_ports",
-                                         "",
-                                         ""};
+coil::Properties composite_profile() {
+    const char* const spec[][2] = {{"implementation_id", "PeriodicECSharedComposite"},
+                                   {"type_name", "PeriodicECSharedComposite"},
+                                   {"description", "components that share one execution context"},
+                                   {"version", "1.0"},
+                                   {"vendor", "jp.go.aist"},
+                                   {"category", "composite.PeriodicECShared"},
+                                   {"activity_type", "DataFlowComponent"},
+                                   {"max_instance", "0"},
+                                   {"language", "C++"},
+                                   {"lang_type", "compile"},
+                                   {"conf.default.members", ""},
+                                   {"conf.default.exported_ports", ""}};
+    coil::Properties properties;
+    for (const auto& entry : spec) properties.setDefault(entry[0], entry[1]);
+    return properties;
+}
 
 } // namespace
 
 void register_shared_composite(Manager& manager) {
-    coil::Properties profile(composite_profile);
+    coil::Properties profile = composite_profile();
     manager.registerFactory(profile, Create<PeriodicECSharedComposite>, Delete<PeriodicECSharedComposite>);
 }
 

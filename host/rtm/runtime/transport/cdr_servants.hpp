@@ -11,8 +11,8 @@
 
 namespace RTC {
 
-/// A message that arrived as octets. `little_endian` as below. CdrData and OctetSeq of the two IDL files are different
-/// types with the same base.
+/// Returns a message that arrived as octets. `little_endian`: its byte order. CdrData and OctetSeq of the two IDL files
+/// are different types with the same base.
 ByteData received_message(const _CORBA_Unbounded_Sequence_Octet& octets, bool little_endian);
 
 /// Creates a servant that passes pushed messages to `receiver`. `interface_type` as returned by corba_interface_type().

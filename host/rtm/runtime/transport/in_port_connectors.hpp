@@ -29,7 +29,7 @@ class InPortPushConnector : public InPortConnector {
     BufferStatus write(ByteData& bytes) override;
     std::shared_ptr<PushReceiver> receiver() const { return receiver_; }
     const ServantHolder& servant() const { return servant_; }
-    /// The servant of a NewestPush; NULL if not only the newest message counts.
+    /// Returns the servant of a NewestPush, or NULL if older messages also count.
     const ServantHolder* numbered_servant() const { return numbered_servant_.get(); }
     /// Creates the servant by which a sender of another process makes this connector read a ring. Call it before the
     /// port has the connector.

@@ -51,7 +51,7 @@ Message<T> pack(const Stamped<T>& in) {
     return out;
 }
 
-/// The inverse of pack(). Returns nullopt if the length is wrong for T, or stamp or sequence number are not finite,
+/// Reverses pack(). Returns nullopt if the length is wrong for T, or stamp or sequence number are not finite,
 /// because the sender may be another author's component.
 template <class T>
 std::optional<Stamped<T>> unpack(std::span<const double> in) {

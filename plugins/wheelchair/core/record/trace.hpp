@@ -71,7 +71,7 @@ class TraceReader {
     TraceReader& operator=(const TraceReader&) = delete;
 
     std::uint64_t size() const; // number of records written by now
-    /// The doubles of records [first, first + count), or of those that exist.
+    /// Returns the doubles of records [first, first + count), or of those that exist.
     std::vector<double> read(std::uint64_t first, std::uint64_t count) const;
 
   private:
@@ -84,7 +84,7 @@ class TraceReader {
 /// nothing where the file system cannot do this.
 void discard_records(const std::string& path, ColumnNames columns, std::uint64_t count);
 
-/// Whether the file exists and is not empty: a component that was not activated yet has written no trace.
+/// Returns whether the file exists and is not empty: a component that was not activated yet has written no trace.
 bool trace_exists(const std::string& path);
 
 } // namespace tandem::wheelchair

@@ -12,7 +12,7 @@ class CallSender {
     /// Creates a segment. Throws tandem::shm::Error.
     CallSender();
 
-    /// For SharedCalls::open(), in the other process.
+    /// Returns the name for SharedCalls::open(), in the other process.
     const std::string& link() const { return link_; }
     /// Removes the segment's name once the other process has joined. Nothing then remains after the end of both.
     void remove_name();

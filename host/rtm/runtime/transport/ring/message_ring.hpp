@@ -35,7 +35,7 @@ class MessageRingWriter {
     MessageRingWriter();
     ~MessageRingWriter();
 
-    /// For MessageRingReader, in the other process.
+    /// Returns the name for MessageRingReader, in the other process.
     const std::string& link() const { return link_; }
     /// Removes the segment's name once the reader has joined. Other processes then cannot find the segment, and nothing
     /// remains after the end of both processes.
@@ -86,7 +86,7 @@ class MessageRingReader {
     std::optional<std::span<const std::byte>> read();
     /// Returns whether the other process has damaged the ring. No more messages arrive then.
     bool is_corrupt() const;
-    /// For a MessageServer.
+    /// Returns the segment, for a MessageServer.
     const std::shared_ptr<tandem::shm::Segment>& segment() const { return segment_; }
     const tandem::shm::CallQueueHandle& calls() const { return *calls_; }
     /// Permits the writer, from now on, to call the MessageServer.

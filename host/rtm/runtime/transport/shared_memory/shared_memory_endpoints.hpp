@@ -10,14 +10,14 @@
 
 namespace RTC {
 
-/// Push, the sending end: `object` is the PortSharedMemory that the InPort has published.
+/// Creates the sending end of a push. `object`: the PortSharedMemory that the InPort has published.
 std::unique_ptr<RemoteReceiver> create_shared_memory_receiver(CORBA::Object_ptr object);
-/// Push, the receiving end: what the InPort publishes.
+/// Creates the receiving end of a push, which the InPort publishes.
 PortableServer::ServantBase* create_shared_memory_servant(std::shared_ptr<PushReceiver> receiver,
                                                           bool little_endian);
-/// Pull, the receiving end: `object` is the PortSharedMemory that the OutPort has published.
+/// Creates the receiving end of a pull. `object`: the PortSharedMemory that the OutPort has published.
 std::unique_ptr<RemoteSender> create_shared_memory_sender(CORBA::Object_ptr object);
-/// Pull, the sending end: what the OutPort publishes.
+/// Creates the sending end of a pull, which the OutPort publishes.
 PortableServer::ServantBase* create_shared_memory_servant(std::shared_ptr<PullBuffer> buffer);
 
 } // namespace RTC

@@ -45,8 +45,8 @@ class SharedMessageReader {
     /// that this user may read.
     bool open(const std::string& name);
     void close();
-    /// The message in the object; false when there is none, or its length is more than the object holds.
-    /// `little_endian`: the byte order of the length.
+    /// Copies the message in the object to `bytes`. Returns false if there is none, or if its length is more than the
+    /// object holds. `little_endian`: the byte order of the length.
     bool read(ByteData& bytes, bool little_endian) const;
     /// Removes the name of the object that was opened last, whose creator does not do that.
     void remove_name();

@@ -1,22 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/opros/engine/load/plugin_dirs.hpp"
+#include "host/plugin/plugin_dirs.hpp"
 
 #include <cstdlib>
 #include <sstream>
-#include <string>
 
-namespace tandem::engine {
+namespace tandem::plugin {
 
-std::vector<std::filesystem::path> default_plugin_dirs() {
+std::vector<std::filesystem::path> default_plugin_dirs(const std::string& model) {
     std::vector<std::filesystem::path> dirs;
     const char* variable = std::getenv("TANDEM_PLUGIN_PATH");
     std::istringstream listed(variable ? variable : "");
     for (std::string dir; std::getline(listed, dir, ':');)
         if (!dir.empty()) dirs.emplace_back(dir);
     const auto prefix = std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path();
-    dirs.push_back(prefix / "plugins" / "opros");
-    dirs.push_back(prefix / TANDEM_INSTALLED_PLUGINS);
+    dirs.push_back(prefix / "plugins" / model);
+    dirs.push_back(prefix / TANDEM_INSTALLED_PLUGINS / model);
     return dirs;
 }
 
-} // namespace tandem::engine
+} // namespace tandem::plugin
