@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Cross-compiles preset arm64 in a Debian 12 root folder that it makes, and runs tests of it under qemu.
-#   tests/arm64.sh [ninja target ...]    (default: the tests of shared memory, of the wire format and of links, and the wheelchair)
+#   tests/arm64.sh [ninja target ...]    (default: the tests of shared memory, the wire format, links and crashes, and the wheelchair)
 # Without targets, the wheelchair must write the same bytes in lock-step as on x86-64; log and figure are in build/arm64/wheelchair.
 # Times under qemu say nothing of a board. Needs root, debootstrap and 3 GB in /var/tmp/tandem-arm64.
 set -euo pipefail
@@ -57,7 +57,7 @@ programs=("$@")
 if [ $# -eq 0 ]; then
     # Not test_shm_data_path, which forbids system calls: qemu needs its own.
     programs=(test_shm_segment test_shm_ring test_shm_calls test_shm_pages_16k test_shm_pages_64k test_wire test_link
-        test_wheelchair_core)
+        test_crash test_wheelchair_core)
     set -- "${programs[@]}" test_wheelchair_hosts wheelchair_all
 fi
 cmake --build --preset arm64 --target "$@"
