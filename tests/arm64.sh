@@ -52,7 +52,9 @@ if [ ! -e $setting/qemu-aarch64 ]; then
             > $setting/register
     fi
 fi
-cmake --preset arm64 -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=32 >/dev/null
+unity=ON # several files at once, as in run-wheelchair.sh; not all of the other targets' files have different local names
+if [ $# -gt 0 ]; then unity=OFF; fi
+cmake --preset arm64 -DCMAKE_UNITY_BUILD=$unity -DCMAKE_UNITY_BUILD_BATCH_SIZE=32 >/dev/null
 programs=("$@")
 if [ $# -eq 0 ]; then
     # Not test_shm_data_path, which forbids system calls: qemu needs its own.
