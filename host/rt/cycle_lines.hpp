@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 
@@ -30,6 +31,8 @@ class CycleLines {
             for (std::size_t more = 0; more <= runs_[i] % line; ++more)
                 __builtin_prefetch(first + more * line, 1);
         }
+        // GCC omits calls of a function that does nothing but prefetch.
+        std::atomic_signal_fence(std::memory_order_seq_cst);
     }
     std::size_t count() const noexcept { return count_; }
 

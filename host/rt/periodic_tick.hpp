@@ -132,6 +132,7 @@ void prefetch(const Object& object) {
         __builtin_prefetch(whole + at, 1); // a prefetch of an invalid address has no effect
         __builtin_prefetch(functions + at);
     }
+    std::atomic_signal_fence(std::memory_order_seq_cst); // as in CycleLines::prefetch()
 }
 
 } // namespace tandem::rt

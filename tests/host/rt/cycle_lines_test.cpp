@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rt/cycle_lines.hpp"
+#include "host/rt/periodic_tick.hpp"
 #include "host/rt/rehearsal.hpp"
 #include "host/rt/shared_tick.hpp"
 
@@ -7,11 +8,69 @@
 
 #include <array>
 #include <atomic>
+#include <optional>
+#include <sys/ptrace.h>
+#include <sys/wait.h>
 #include <thread>
+#include <unistd.h>
+#include <vector>
 
 using namespace std::chrono_literals;
 using tandem::rt::CycleLines;
 using tandem::rt::SharedTick;
+
+namespace {
+
+/// Returns how many instructions a process executes that does the work, or none if it must not be traced.
+template <class Work>
+std::optional<long> count_instructions(const Work& work) {
+    const pid_t child = fork();
+    if (child == 0) {
+        if (ptrace(PTRACE_TRACEME, 0, nullptr, nullptr) != 0) _exit(1);
+        raise(SIGSTOP);
+        work();
+        _exit(0);
+    }
+    int status = 0;
+    long steps = 0;
+    while (waitpid(child, &status, 0) == child && WIFSTOPPED(status)) {
+        ptrace(PTRACE_SINGLESTEP, child, nullptr, nullptr);
+        ++steps;
+    }
+    return steps > 1 ? std::optional(steps) : std::nullopt;
+}
+
+struct Component {
+    virtual ~Component() = default;
+    std::array<std::byte, 2048> memory{};
+};
+
+} // namespace
+
+// GCC takes a function that only prefetches for one without effect.
+TEST_CASE("the compiler does not omit the requests for lines") {
+    CycleLines noted, none;
+    std::array<std::byte, 8192> object{};
+    const long lines = CycleLines::most_runs * CycleLines::longest_run;
+    for (std::size_t i = 0; i < CycleLines::most_runs; ++i) noted.add(object.data(), object.size());
+    const auto instructions = [](const std::vector<const CycleLines*>& next) {
+        return count_instructions([&] {
+            if (!next.empty()) next.front()->prefetch();
+        });
+    };
+    const auto without = instructions({&none}), with = instructions({&noted});
+    if (!without || !with) {
+        WARN("this process must not trace another one");
+        return;
+    }
+    CHECK(*with - *without >= lines);
+
+    const Component component;
+    const auto do_nothing = count_instructions([] {}),
+               prefetch = count_instructions([&] { tandem::rt::prefetch(component); });
+    REQUIRE((do_nothing && prefetch));
+    CHECK(*prefetch - *do_nothing >= static_cast<long>(2 * sizeof component.memory / CycleLines::line));
+}
 
 TEST_CASE("the lines of a cycle have a limit, and only a rehearsal that collects them adds some") {
     std::array<std::byte, 8192> object{};
