@@ -26,13 +26,17 @@ std::map<std::string, std::string> missing_names(const std::string& output) {
         {"TRUE", "#define TRUE 1"},
         {"FALSE", "#define FALSE 0"},
         {"Sleep", "static inline void Sleep(unsigned int milliseconds) { usleep(1000 * milliseconds); }"},
+        {"_mkdir", "static inline int _mkdir(const char* path) { return mkdir(path, 0777); }"},
     };
+    static const std::map<std::string, std::string> headers{{"Sleep", "<unistd.h>"},
+                                                            {"_mkdir", "<sys/stat.h>"}};
     std::map<std::string, std::string> missing;
     std::istringstream lines(output);
     for (std::string line; std::getline(lines, line);) {
-        if (const auto known = declarations.find(unknown_name(line)); known != declarations.end())
-            missing.insert(*known);
-        if (missing.count("Sleep") != 0) missing.emplace("<unistd.h>", "#include <unistd.h>"); // usleep()
+        const auto name = unknown_name(line);
+        if (const auto known = declarations.find(name); known != declarations.end()) missing.insert(*known);
+        if (const auto header = headers.find(name); header != headers.end())
+            missing.emplace(header->second, "#include " + header->second);
         if (line.find("did you forget to") == std::string::npos) continue; // advice of g++
         if (const auto header = between(line, "#include <", ">"); !header.empty())
             missing.emplace("<" + header + ">", "#include <" + header + ">");

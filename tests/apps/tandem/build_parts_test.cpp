@@ -300,10 +300,8 @@ TEST_CASE("an error about a header or a library is followed by a remedy") {
     CHECK_THAT(no_header("progid:Stick.Device.1"), Catch::Contains("a Windows header"));
     CHECK_THAT(no_header("Vendor.h"), Catch::Contains("-I DIR"));
     CHECK(no_header("glut.h") == "if GL/glut.h is meant: apt install libglut-dev");
-    CHECK(remedy("Old.cpp:9: undefined reference to `cvReleaseImage'") ==
-          "apt install libopencv-dev");
-    CHECK(remedy("Old.cpp:9: undefined reference to `jpeg_CreateDecompress'") ==
-          "apt install libjpeg-dev");
+    CHECK(remedy("Old.cpp:9: undefined reference to `cvReleaseImage'") == "apt install libopencv-dev");
+    CHECK(remedy("Old.cpp:9: undefined reference to `jpeg_CreateDecompress'") == "apt install libjpeg-dev");
     CHECK(remedy("Old.cpp:9: undefined reference to `boost::thread::join()'") ==
           "apt install libboost-thread-dev");
     CHECK_THAT(remedy("Old.cpp:9: undefined reference to `nowhere()'"), Catch::Contains("--source FILE"));

@@ -101,7 +101,7 @@ TEST_CASE(
 TEST_CASE("simple names of Windows and standard headers are added if a source lacks them") {
     const Folder folder;
     old_component(folder, "BOOL found = TRUE; typedef int BOOL; BYTE byte = 1; (void)found; (void)byte; "
-                          "std::forward_list<int> queue; Sleep(0);");
+                          "std::forward_list<int> queue; Sleep(0); _mkdir(\".\");");
     folder.write("Old/wheel.c", "int wheels(void) { return 4; }\n"); // C has no <forward_list>
     const std::vector<std::string> arguments{folder.path() / "Old", "-I", folder.path() / "neighbour"};
     const auto built = build(arguments);
@@ -111,6 +111,7 @@ TEST_CASE("simple names of Windows and standard headers are added if a source la
                Catch::Contains("tandem: BOOL is missing; adding: typedef int BOOL;\n") &&
                    Catch::Contains("#define TRUE 1\n") && Catch::Contains("BYTE") &&
                    Catch::Contains("tandem: Sleep is missing; adding: static inline void Sleep(") &&
+                   Catch::Contains("adding: #include <sys/stat.h>\n") &&
                    Catch::Contains("adding: #include <forward_list>\n"));
     old_component(folder, "DWORD now = GetTickCount(); (void)now;");
     CHECK_THAT(build(arguments).errors,
