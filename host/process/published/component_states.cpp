@@ -21,7 +21,8 @@ OwnComponentState::OwnComponentState(const std::string& name, ComponentState sta
     const std::lock_guard lock(file.mutex);
     if (file.content == nullptr) return;
     for (auto& place : file.content->place)
-        if (place.state == 0 && place_ == nullptr) place_ = &place;
+        if (place_ == nullptr && std::atomic_ref(place.state).load(std::memory_order_acquire) == 0)
+            place_ = &place;
     if (place_ == nullptr) {
         left_out_ = true;
         std::atomic_ref(file.content->left_out).fetch_add(1, std::memory_order_relaxed);
