@@ -113,7 +113,7 @@ class Scanner {
     // Headers of OpenRTM are in folders with a version, openrtm-1.1/rtm/RTC.h; those of Windows users have backslashes,
     // and drives: C:\Eigen\include\Eigen\Core.
     void find_otherwise(const std::string& name, const fs::path& place) {
-        static const std::regex on_drive("[A-Za-z]:/(?:.*/include/|.*/)?(.+)"),
+        static const std::regex on_drive("[A-Za-z]:/(?:(?:.*/)?include/|.*/)?(.+)"),
             versioned("(?:openrtm|rtm|coil)-[0-9.]+/(.+)");
         std::smatch found;
         std::string meant = to_posix_path(name);

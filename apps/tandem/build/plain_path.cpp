@@ -66,10 +66,11 @@ void require_conf_type(const std::string& name, const std::string& category, con
                                              text::printable_line(module.string()), what,
                                              text::printable_line(text), expected));
     };
-    const auto is_plain = [](char c) { return c < 0 || is_one_of(c, "_-+"); };
+    const auto is_plain = [](unsigned char c) { return c >= 128 || is_one_of(c, "_-+"); };
     if (name.empty() || !std::all_of(name.begin(), name.end(), is_plain))
         fail("name", name, "letters, digits, _, - and +");
-    if (!find_special(category, ":=\\#").empty()) fail("category", category, "no :, =, # and \\");
+    if (category.starts_with(' ') || category.ends_with(' ') || !find_special(category, ":=\\#!").empty())
+        fail("category", category, "a text without :, =, #, ! and \\, and without blanks at its ends");
 }
 
 void require_library(const std::string& library) {

@@ -332,8 +332,8 @@ fs::path build_plugin(const std::string& model, const std::string& name, const E
     } catch (const MissingPackage& missing) {
         if (!offer_package(missing.package)) throw;
     }
-    CMakeProjects again(projects_folder(options), options.timeout_s); // may now find the package
-    return build_plugin(model, name, entry_point, options, default_folder, again);
+    projects.forget(); // they may now find the package
+    return build_plugin(model, name, entry_point, options, default_folder, projects);
 }
 
 } // namespace tandem::command

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/build/plain_path.hpp"
-#include "apps/tandem/import/import_folder.hpp"
 #include "apps/tandem/link/component_pair.hpp"
 #include "apps/tandem/output/print.hpp"
 #include "apps/tandem/system/commands.hpp"

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/system/staged_folder.hpp"
 
+#include <cerrno>
+#include <cstring>
 #include <fcntl.h>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
 #include <string>
 #include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
 #include <vector>
 
 namespace tandem::command {
@@ -22,8 +26,8 @@ fs::path normal(const fs::path& folder) {
 
 /// Returns the place of the new folder: beside a DIR that does not exist, which is then renamed as a whole, else in it.
 fs::path staging_place(const fs::path& folder) {
-    return fs::exists(folder) ? folder / ".new"
-                              : folder.parent_path() / ("." + folder.filename().string() + ".new");
+    return fs::exists(folder) ? folder / ".tandem-new"
+                              : folder.parent_path() / ("." + folder.filename().string() + ".tandem-new");
 }
 
 bool have_same_content(const fs::path& a, const fs::path& b) {
@@ -40,11 +44,17 @@ bool is_used(const fs::path& folder) { return fs::exists(folder) && !fs::is_empt
 
 StagedFolder::StagedFolder(const fs::path& folder) : folder_(normal(folder)), path_(staging_place(folder_)) {
     std::error_code error;
-    if (!fs::create_directories(path_, error) && error)
+    const bool is_made = fs::create_directories(path_, error);
+    if (error)
         throw std::runtime_error("folder " + path_.string() + " cannot be created: " + error.message());
-    lock_ = process::FileDescriptor(open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-    if (!lock_ || flock(lock_.get(), LOCK_EX | LOCK_NB) != 0)
-        throw std::runtime_error(folder.string() + " is being written by another command; try again later");
+    lock_ = process::FileDescriptor(open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
+    struct stat status {};
+    if (!lock_ || fstat(lock_.get(), &status) != 0 || (!is_made && status.st_uid != geteuid()))
+        throw std::runtime_error(path_.string() + " is not a folder of this user; remove it");
+    if (flock(lock_.get(), LOCK_EX | LOCK_NB) != 0)
+        throw std::runtime_error(
+            errno == EWOULDBLOCK ? folder.string() + " is being written by another command; try again later"
+                                 : path_.string() + " cannot be locked: " + std::strerror(errno));
     for (const auto& left : fs::directory_iterator(path_)) fs::remove_all(left.path());
 }
 
@@ -82,6 +92,7 @@ void StagedFolder::publish_files() {
             const fs::path copy = file.string() + "~", former = target.string() + "~";
             fs::copy_file(target, copy);
             fs::rename(copy, former);
+            fs::permissions(file, fs::status(target).permissions());
         }
         fs::rename(file, target);
     }

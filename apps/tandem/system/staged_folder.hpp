@@ -7,8 +7,8 @@
 
 namespace tandem::command {
 
-/// A new folder in which a command writes a system, until DIR gets the complete system by rename. A killed command leaves
-/// DIR as it was; the next one removes what it has left.
+/// A new folder in which a command writes a system, until DIR gets the complete files by rename. A killed command leaves no
+/// half-written file; the next one removes what it has left.
 class StagedFolder {
   public:
     /// Throws std::runtime_error if another command writes DIR, or if the new folder cannot be created.

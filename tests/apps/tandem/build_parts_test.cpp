@@ -355,10 +355,11 @@ TEST_CASE("a path is refused only if a reader would take a part of it for its ow
 
 TEST_CASE("a component type whose name or category rtc.conf would read as something else is refused") {
     CHECK_NOTHROW(require_conf_type("Arm_2", "Mobile Robot", "/Arm.so"));
+    CHECK_NOTHROW(require_conf_type("Ärm", "c", "/Arm.so"));
     for (const char* name : {"", "a,b", "a?x=y", "a&b", "a b", "a.b", "a\nmanager.modules.preload: x.so"})
         CHECK_THROWS_WITH(require_conf_type(name, "c", "/Arm.so"),
                           Catch::StartsWith("/Arm.so registers a component type with the name '"));
-    for (const char* category : {"a:b", "a=b", "a\nb"})
+    for (const char* category : {"a:b", "a=b", "a\nb", "!a", " a", "a "})
         CHECK_THROWS_WITH(require_conf_type("Arm", category, "/Arm.so"),
                           Catch::StartsWith("/Arm.so registers a component type with the category '"));
 }

@@ -26,6 +26,9 @@ class CMakeProjects {
     /// Returns what the projects lacked, for an error message: the error of CMake, or missing packages; "": nothing.
     std::string problem() const;
 
+    /// Forgets what the projects lacked and compile: they are configured again.
+    void forget() { projects_.clear(); }
+
   private:
     struct Project {
         std::vector<ProjectTarget> targets;

@@ -25,7 +25,11 @@ constexpr off_t max_log = 16 << 20;
 
 /// Throws unless the name is that of a link, as `tandem system new` needs it: it cannot lead to another folder.
 const std::string& require_name(const std::string& name) {
-    shm::check_link_name(name);
+    try {
+        shm::check_link_name(name);
+    } catch (const shm::Error&) { // whose text has the name, which a client has sent
+        throw std::invalid_argument("expected a name of 1 to 64 characters of A-Z a-z 0-9 _ -, the first not -");
+    }
     return name;
 }
 

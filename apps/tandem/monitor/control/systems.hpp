@@ -13,7 +13,7 @@
 namespace tandem::monitor {
 
 /// The systems in the folder that `tandem monitor --systems` names, and the runs of them that pages have started. All
-/// functions with a name throw a std::exception with one line unless it is that of a folder directly in this one.
+/// functions with a name throw std::invalid_argument with one line unless it is that of a folder directly in this one.
 /// [one thread]
 class Systems {
   public:

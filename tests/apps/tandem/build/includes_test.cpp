@@ -46,7 +46,8 @@ TEST_CASE("a header on a drive of Windows is the one below the last folder named
     const Folder folder;
     folder.write("Arm/Arm.cpp", "#include \"C:\\Program Files (x86)/Eigen\\include/eigen3/Eigen/Core\"\n"
                                 "#include \"D:\\work\\Arm\\Units.h\"\n"
-                                "#include <C:/OpenRTM/include/coil-1.1/coil/Time.h>\n");
+                                "#include <C:/OpenRTM/include/coil-1.1/coil/Time.h>\n"
+                                "#include <C:/include/coil/Mutex.h>\n");
     folder.write("Arm/parts/Units.h", "");
     const auto scan = scan_includes(folder.path() / "Arm", {folder.path() / "Arm/Arm.cpp"}, {});
     CHECK(scan.forwards ==
@@ -54,7 +55,8 @@ TEST_CASE("a header on a drive of Windows is the one below the last folder named
               {"C:\\Program Files (x86)/Eigen\\include/eigen3/Eigen/Core", "eigen3/Eigen/Core"},
               {"D:\\work\\Arm\\Units.h", "Units.h"},
               {"Units.h", folder.path() / "Arm/parts/Units.h"},
-              {"C:/OpenRTM/include/coil-1.1/coil/Time.h", "coil/Time.h"}});
+              {"C:/OpenRTM/include/coil-1.1/coil/Time.h", "coil/Time.h"},
+              {"C:/include/coil/Mutex.h", "coil/Mutex.h"}});
     CHECK(scan.pkg_config == std::set<std::string>{"eigen3"});
 }
 

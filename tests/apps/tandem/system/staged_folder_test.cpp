@@ -107,10 +107,20 @@ TEST_CASE("a command that fails leaves nothing, and two do not write one folder"
     CHECK(fs::is_empty(folder.path));
 }
 
+TEST_CASE("a link in the place of the new folder is not followed, and what it leads to is kept") {
+    const Folder folder;
+    write(folder.path / "data/file", "mine");
+    fs::create_symlink(folder.path / "data", folder.path / ".robot.tandem-new");
+    CHECK_THROWS_WITH(StagedFolder(folder.path / "robot"),
+                      Catch::EndsWith(".robot.tandem-new is not a folder of this user; remove it"));
+    CHECK(fs::exists(folder.path / "data/file"));
+}
+
 TEST_CASE("files of a running system are replaced one by one, and the former ones are kept") {
     const Folder folder;
-    for (const char* name : {"rtm/rtc.conf", "rtm/Arm.conf", "rtm/rtc.conf~"})
-        write(folder.path / name, "old");
+    for (const char* name : {"rtm/rtc.conf", "rtm/Arm.conf"}) write(folder.path / name, "old");
+    write(folder.path / "rtm/rtc.conf~", "older");
+    fs::permissions(folder.path / "rtm/rtc.conf", fs::perms::owner_read | fs::perms::owner_write);
     {
         StagedFolder staged(folder.path);
         for (const char* name : {"rtm/rtc.conf", "rtm/New.conf"}) write(staged.path() / name, "new");
@@ -119,4 +129,6 @@ TEST_CASE("files of a running system are replaced one by one, and the former one
     }
     CHECK(folder.files() == std::set<std::string>{"rtm/rtc.conf: new", "rtm/rtc.conf~: old",
                                                   "rtm/New.conf: new", "rtm/Arm.conf: old"});
+    CHECK(fs::status(folder.path / "rtm/rtc.conf").permissions() ==
+          (fs::perms::owner_read | fs::perms::owner_write));
 }

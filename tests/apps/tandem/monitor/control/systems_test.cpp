@@ -90,7 +90,9 @@ TEST_CASE("no name leads out of the folder of systems") {
          {"", ".", "..", "../outside", "a/b", "-x", "linked", "missing", "a b", "a\nb"})
         for (const char* command : {"start", "stop", "log"}) {
             INFO(name << " " << command);
-            CHECK(ask(monitor, {{"command", command}, {"name", name}})["ok"] == false);
+            const auto reply = ask(monitor, {{"command", command}, {"name", name}});
+            CHECK(reply["ok"] == false);
+            CHECK(reply["text"].get<std::string>().find_first_of("\n\x1b") == std::string::npos);
         }
     CHECK(ask(monitor, {{"command", "save"}, {"name", "../new"}, {"hosts", json::array()}})["ok"] == false);
     CHECK(ask(monitor, {{"command", "new"}, {"name", "x"}, {"components", {"../a"}}})["ok"] == false);
