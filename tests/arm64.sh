@@ -52,7 +52,7 @@ if [ ! -e $setting/qemu-aarch64 ]; then
             > $setting/register
     fi
 fi
-unity=ON # several files at once, as in run-wheelchair.sh; not all of the other targets' files have different local names
+unity=ON # compiles several files at once, as run-wheelchair.sh does. In other targets, files share names of local functions.
 if [ $# -gt 0 ]; then unity=OFF; fi
 cmake --preset arm64 -DCMAKE_UNITY_BUILD=$unity -DCMAKE_UNITY_BUILD_BATCH_SIZE=32 >/dev/null
 programs=("$@")

@@ -42,7 +42,10 @@ endif()
 string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)
 set(doc ${CPACK_TANDEM_BUILD}/debian/doc)
 file(REMOVE_RECURSE ${doc})
-cmake_host_system_information(RESULT release QUERY DISTRIB_VERSION_CODENAME) # bookworm
+cmake_host_system_information(RESULT release QUERY DISTRIB_VERSION_CODENAME) # for example bookworm
+if(NOT release)
+  set(release unstable)
+endif()
 file(WRITE ${doc}/changelog.Debian "tandem (${CPACK_PACKAGE_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}) ${release}; urgency=medium
 
   * Version ${CPACK_PACKAGE_VERSION}: changelog.gz says what is new.

@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 #include <sstream>
+#include <system_error>
 
 namespace tandem::plugin {
 
@@ -12,7 +13,9 @@ std::vector<std::filesystem::path> default_plugin_dirs(const std::string& model)
     std::istringstream listed(variable ? variable : "");
     for (std::string dir; std::getline(listed, dir, ':');)
         if (!dir.empty()) dirs.emplace_back(dir);
-    const auto prefix = std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path();
+    std::error_code ignored; // without /proc, there are only the listed folders
+    const auto prefix = std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path().parent_path();
+    if (ignored) return dirs;
     dirs.push_back(prefix / "plugins" / model);
     dirs.push_back(prefix / TANDEM_INSTALLED_PLUGINS / model);
     return dirs;

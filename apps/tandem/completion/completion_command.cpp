@@ -101,7 +101,7 @@ _tandem_links() {
     local file links=
     for file in /dev/shm/tandem.*.*; do
         file=${file#/dev/shm/tandem.}
-        [[ -r /dev/shm/tandem.$file && ${file%.*} != *[!A-Za-z0-9_-]* ]] || continue
+        [[ -r /dev/shm/tandem.$file && $file != -* && ${file%.*} != *[!A-Za-z0-9_-]* ]] || continue
         [[ " $links " == *" ${file%.*} "* ]] || links+=" ${file%.*}"
     done
     _tandem_words "$links"

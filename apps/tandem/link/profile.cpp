@@ -218,6 +218,7 @@ std::string as_link_name(std::string text) {
     std::replace_if(
         text.begin(), text.end(), [](unsigned char c) { return !(std::isalnum(c) || c == '-' || c == '_'); },
         '_');
+    if (text.starts_with('-')) text.front() = '_';
     return text.substr(0, 60);
 }
 

@@ -60,7 +60,7 @@ std::string inside_text(const monitor::State& state) {
                                     to->name, from->kind == "data" ? "" : "  " + from->kind);
     }
     if (connections.left_out != 0)
-        text += fmt::format("{} more connections are not shown\n", connections.left_out);
+        text += fmt::format("connections that are not shown: {}\n", connections.left_out);
     return text;
 }
 

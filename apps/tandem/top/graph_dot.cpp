@@ -140,7 +140,7 @@ std::string graph_dot(const monitor::State& state) {
         if (link.readable) text += edges_of(link);
     const auto connections = inside_connections(state);
     if (connections.left_out != 0)
-        text += fmt::format("  label=\"{} more connections are not shown\"\n", connections.left_out);
+        text += fmt::format("  label=\"connections that are not shown: {}\"\n", connections.left_out);
     for (const auto& [from_host, to_host, from, to] : connections.shown)
         text += fmt::format("  {} -> {} [label={}{}]\n", inside_node(*from_host, from->component),
                             inside_node(*to_host, to->component), text::quote_dot(from->name),

@@ -11,7 +11,7 @@ class ComponentDirectory;
 
 namespace tandem::adaptor::engine {
 
-/// Stands in for the directory in a real engine, which tells no component about the others, or about its own end.
+/// The DirectoryUser of a real engine, which has no directory and does not tell its components that it ends.
 class DirectoryUser {
   protected:
     static ComponentDirectory* directory() { return nullptr; }

@@ -92,7 +92,7 @@ const std::vector<Expected> all_faults{
 };
 
 /// Tries in a child process whether an integer division by zero is a fault. On arm64 the result is 0.
-bool is_division_by_zero_a_fault() {
+[[gnu::no_sanitize("undefined")]] bool is_division_by_zero_a_fault() { // UBSan would end the child
     const pid_t child = fork();
     if (child == 0) {
         std::signal(SIGFPE, SIG_DFL);
@@ -107,8 +107,10 @@ bool is_division_by_zero_a_fault() {
 /// Returns the faults that this processor has.
 std::vector<Expected> faults() {
     std::vector<Expected> found = all_faults;
-    if (!is_division_by_zero_a_fault())
+    if (!is_division_by_zero_a_fault()) { // such a processor also tells the address of every fault
         std::erase_if(found, [](const Expected& fault) { return fault.signal == SIGFPE; });
+        for (Expected& fault : found) fault.what = fault.elsewhere;
+    }
     return found;
 }
 
@@ -119,8 +121,7 @@ void check_block(const CommandResult& result, const Expected& expected, const st
     CHECK(result.status.signalled);
     CHECK(result.status.code == expected.signal);
     const std::string crashed = host + ": component " + component + " crashed in onExecute: ";
-    CHECK_THAT(text,
-               Catch::StartsWith(crashed + expected.what) || Catch::StartsWith(crashed + expected.elsewhere));
+    CHECK_THAT(text, Catch::StartsWith(crashed + expected.what));
     CHECK_THAT(text,
                Contains("  plugin " TANDEM_TEST_PLUGINS "/" + plugin + "\n") && Contains("\n  thread "));
     CHECK_THAT(text, Contains("  #0  ") && Contains(expected.function));

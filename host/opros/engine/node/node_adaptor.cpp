@@ -55,6 +55,7 @@ std::string node_link(const NodePart& part) {
     std::string name = part.application.name.substr(0, max_length - node.size()) + node;
     constexpr const char* allowed = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-";
     for (std::size_t at; (at = name.find_first_not_of(allowed)) != std::string::npos;) name[at] = '_';
+    if (name.front() == '-') name.front() = '_'; // not an option of a command
     return name;
 }
 

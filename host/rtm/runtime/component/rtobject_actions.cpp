@@ -137,7 +137,11 @@ ReturnCode_t RTObject_impl::on_deactivated(UniqueId ec_id) {
 }
 
 ReturnCode_t RTObject_impl::on_aborting(UniqueId ec_id) {
-    if (const char* failed = m_failedCallback) RTC_ERROR(("went to ERROR: its %s has failed", failed));
+    const char* const failed = m_failedCallback; // NULL if on_execute() itself is overridden
+    if (failed != nullptr)
+        RTC_ERROR(("went to ERROR: its %s has failed", failed));
+    else
+        RTC_ERROR(("went to ERROR"));
     return run_guarded("onAborting", ec_id, Pre::PRE_ON_ABORTING, Post::POST_ON_ABORTING,
                        [&] { return onAborting(ec_id); });
 }

@@ -103,7 +103,7 @@ void Manager::Impl::activate(RTObject_impl& component) {
             RTC_WARN(("%s is still INACTIVE: its execution context has not begun the activation, its thread "
                       "is busy",
                       name.c_str()));
-        } // else its log says which callback has failed
+        } // else the component's log says which callback has failed
     }
 }
 

@@ -234,6 +234,9 @@ TEST_CASE("the link of a node has the node's name, however long that of the appl
     CHECK(node_link(part) == std::string(59, 'a') + "-left");
     part.node = std::string(100, 'n');
     CHECK(node_link(part) == std::string(31, 'a') + "-" + std::string(32, 'n'));
+    part.application.name = "-a";
+    part.node = "left";
+    CHECK(node_link(part) == "_a-left");
 }
 
 TEST_CASE("a connection may send the newest value only, and nothing else than `new` selects that") {

@@ -25,7 +25,7 @@ TEST_CASE("A component describes a port while others connect it") {
     DescribedPort described("described", value);
     REQUIRE(accumulator.addInPort("described", described));
     constexpr int notes = 2000;
-    std::thread component([&] {
+    std::jthread component([&] {
         for (int number = 0; number < notes; ++number) described.describe(number);
     });
     for (int i = 0; i < 20; ++i) {
