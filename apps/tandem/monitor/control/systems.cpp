@@ -2,6 +2,7 @@
 #include "apps/tandem/monitor/control/systems.hpp"
 
 #include "apps/tandem/monitor/control/output_text.hpp"
+#include "shm/os/error.hpp"
 #include "shm/segment/segment_file.hpp"
 
 #include <fcntl.h>

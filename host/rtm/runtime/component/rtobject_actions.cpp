@@ -138,10 +138,11 @@ ReturnCode_t RTObject_impl::on_deactivated(UniqueId ec_id) {
 
 ReturnCode_t RTObject_impl::on_aborting(UniqueId ec_id) {
     const char* const failed = m_failedCallback; // NULL if on_execute() itself is overridden
-    if (failed != nullptr)
+    if (failed != nullptr) {
         RTC_ERROR(("went to ERROR: its %s has failed", failed));
-    else
+    } else {
         RTC_ERROR(("went to ERROR"));
+    }
     return run_guarded("onAborting", ec_id, Pre::PRE_ON_ABORTING, Post::POST_ON_ABORTING,
                        [&] { return onAborting(ec_id); });
 }
