@@ -16,7 +16,7 @@ struct HandleState {
     std::atomic<bool> cancelled{false};
     std::atomic<double> progress{-1};
     std::atomic<int> pending{0}; ///< calls that nobody waits for
-    const std::uint64_t max_ns;  ///< 0: no bound of its own
+    const std::uint64_t max_ns;  ///< time limit of each call, in ns; 0: the default one
 };
 using SharedHandle = std::shared_ptr<HandleState>;
 

@@ -62,7 +62,7 @@ class alignas(layout::line_pair) RingProducer {
     bool refuse();
 
     /// Publishes a message of up to max_record bytes if it fits after the last one, without reserve() and commit().
-    /// Returns false, without side effects, if it does not fit, if that is not known yet, or if its age is to be measured.
+    /// Returns false and changes nothing if it does not fit, if that is not known yet, or if its age is to be measured.
     /// `readable_behind`: up to 48 bytes behind `bytes` are readable and may be copied, too.
     bool write_behind_last(const void* bytes, std::size_t count, std::uint64_t stamp, bool readable_behind);
     /// Publishes like write_behind_last(), but a message of one word and `count` bytes at another address.

@@ -4,8 +4,8 @@
 
 namespace tandem::shm {
 
-/// Polls until ready() holds. Returns false if A::now(), in ns, reaches `deadline` first. Seldom reads the clock, and pauses between
-/// rounds only after a long time of polling: a pause delays the reaction by 50 ns.
+/// Polls until ready() holds. Returns false if A::now(), in ns, reaches `deadline` first. Seldom reads the clock, and pauses
+/// between rounds only after a long time of polling: a pause delays the reaction by 50 ns.
 template <class A = RealAtomics, class Ready>
 bool spin_until(std::uint64_t deadline, Ready&& ready) {
     for (unsigned round = 1;; ++round) {

@@ -5,8 +5,8 @@
 
 namespace tandem::adaptor {
 
-/// Returns the type code of an OPRoS primitive. `long` has the code of its size, because both hosts run on one machine and the same
-/// source must mean the same on both.
+/// Returns the type code of an OPRoS primitive. `long` has the code of its size, because both hosts run on one machine and
+/// the same source must mean the same on both.
 template <class T>
 constexpr char code_of() {
     if constexpr (std::is_same_v<T, bool>)

@@ -234,8 +234,8 @@ class ChannelReader {
         use(*record);
         return true;
     }
-    /// Returns the mutex, for readers that read several messages or may rehearse: lock it, then call read_locked() and decode. The
-    /// record is valid while the lock is held. In a rehearsal read_locked() returns the last message again.
+    /// Returns the mutex, for readers that read several messages or may rehearse: lock it, then call read_locked() and
+    /// decode. The record is valid while the lock is held. In a rehearsal read_locked() returns the last message again.
     rt::ShortMutex& mutex() { return mutex_; }
     const shm::Record* read_locked() {
         if (rt::rehearsing()) [[unlikely]]

@@ -6,8 +6,7 @@
 
 namespace RTC {
 
-/// Return the parts of a DataMutex. They are in the object itself, because a separate mutex would need one more cache line per
-/// message.
+/// Returns the mutex inside a DataMutex. A separate mutex would need one more cache line per message.
 inline tandem::rt::ShortMutex& short_mutex(DataMutex& mutex) {
     return *std::launder(static_cast<tandem::rt::ShortMutex*>(mutex.memory()));
 }

@@ -23,8 +23,8 @@ class Chair {
     /// Restarts the watchdog at `now`, because the first tick may come long after construction.
     void start_watchdog(double now) { last_voltage_ = now; }
 
-    /// Performs the first half of a tick at time `now` [s]: applies the newest voltages, if any; then the watchdog, the safe stop if
-    /// `forced_stop`, and the parking brake.
+    /// Performs the first half of a tick at time `now` [s]: applies the newest voltages, if any; then the watchdog, the safe
+    /// stop if `forced_stop`, and the parking brake.
     void apply(double now, const std::optional<Stamped<Voltage>>& voltage, bool forced_stop);
 
     /// Performs the second half of a tick: simulates 10 ms and reads the encoders.
