@@ -80,8 +80,8 @@ void InputRelay::forward() {
         end();
 }
 
-// Several children may echo a key. It is shown once, and not at all while one of them reads keys without an echo. What
-// such a child writes to its terminal is no echo. A child that has closed its terminal is still the leader of its session:
+// Several children may echo a key. It is shown once, and not at all while one of them reads keys without an echo. Output that
+// such a child writes to its terminal is not an echo. A child that has closed its terminal is still the leader of its session:
 // if this end were closed too, the kernel would end the child with SIGHUP.
 void InputRelay::update_terminals() {
     const winsize size = terminal_->size();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The calls of a thread, for the proxy: it tells which one a thread executes, and asks of which handle are those that it
-// makes.
+// The calls of a thread, for the proxy, which sets the call that a thread executes and reads the handle for the calls that the
+// thread makes.
 #pragma once
 
 #include <atomic>
@@ -15,7 +15,7 @@ struct HandleState {
 
     std::atomic<bool> cancelled{false};
     std::atomic<double> progress{-1};
-    std::atomic<int> pending{0}; ///< calls that nobody waits for
+    std::atomic<int> pending{0}; ///< calls without a waiting caller
     const std::uint64_t max_ns;  ///< time limit of each call, in ns; 0: the default one
 };
 using SharedHandle = std::shared_ptr<HandleState>;
@@ -34,8 +34,8 @@ class ExecutedCall {
     virtual void set_progress(double share) = 0;
 };
 
-/// Whom call_cancelled() and set_call_progress() of this thread ask; nullptr: nobody. It is set once for each thread, so that a
-/// call costs nothing more.
+/// The object that call_cancelled() and set_call_progress() of this thread use; nullptr: none. It is set once for each thread,
+/// so that a call costs nothing more.
 void set_executed_call(ExecutedCall* call);
 
 } // namespace tandem::call

@@ -10,8 +10,8 @@ namespace tandem::process {
 /// Runs code that may never return (a component's callback or destructor) in a separate thread.
 class BoundedCall {
   public:
-    /// What limits `work` if no thread is free, so that it runs in the calling thread: nothing, or after `timeout` the process
-    /// exits with code 1, which only the end of a host may ask for.
+    /// What limits `work` if no thread is free and it runs in the calling thread: nothing, or the process exits with code 1
+    /// after `timeout`. Only the end of a host may request the latter.
     enum class WithoutThread { no_limit, exit };
 
     /// Runs `work`, waits at most `timeout` (from the start of its thread, or from 1 s after this call), and rethrows its

@@ -53,7 +53,7 @@ class ShortMutex {
     /// std::unique_lock.
     bool try_lock() { return lock_if_owner() || try_lock_without_owner(); }
     void unlock() {
-        // Another thread may write inside_ at this moment, but never this thread's name.
+        // Another thread may write inside_ at this moment, but never this thread's id.
         if (inside_.load(std::memory_order_relaxed) != this_thread()) [[unlikely]]
             return unlock_usual_way();
         inside_.store(0, std::memory_order_release);

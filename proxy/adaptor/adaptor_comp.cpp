@@ -51,7 +51,7 @@ AdaptorComp::AdaptorComp() : Component("AdaptorComp") {
 
 AdaptorComp::~AdaptorComp() {
     close_link();
-    if (restarts_) restarts_->stop(); // not earlier: its task may wait for a transition that closes the link
+    if (restarts_) restarts_->stop(); // last: its task may wait until the link is closed
 }
 
 /// Called before any member is destroyed, because the link's threads use the members; in particular before the shared
@@ -167,14 +167,13 @@ void AdaptorComp::activate_rtc() {
             if (status == CallStatus::ok) run_state_.activated();
             if (!peer_has_gone(status) || left <= 0ms) return;
         }
-        std::this_thread::sleep_for(1ms); // until the link has noticed, too
+        std::this_thread::sleep_for(1ms); // until the link has noticed this as well
     }
 }
 
 /// With life_cycle_mutex_ held.
 CallStatus AdaptorComp::activate_on_connection() {
-    const auto connection =
-        link_->connections(); // read first: a connection that comes up meanwhile is another one
+    const auto connection = link_->connections(); // read first: a later connection needs a new activation
     const auto status = drive_rtc(control::activate);
     if (status == CallStatus::ok) activated_connection_ = connection;
     return status;
@@ -198,7 +197,7 @@ ReturnType AdaptorComp::stop() {
 }
 
 ReturnType AdaptorComp::onStop() {
-    run_state_.let_user_decide(); // before the lock: a peer that comes gets no further attempts
+    run_state_.let_user_decide(); // before the lock, so that a new peer is not activated any more
     const std::lock_guard lock(life_cycle_mutex_);
     // A peer that has gone, or goes meanwhile because both hosts end at once, has nothing left to deactivate.
     const auto status = link_->is_up() ? drive_rtc(control::deactivate) : CallStatus::ok;
@@ -247,8 +246,8 @@ link::PortTable AdaptorComp::peer_ports() {
     return peer_ports_;
 }
 
-/// Of two ports of one name the first one counts. With `strict`, also refuses a peer that returns without a port that was
-/// mirrored, or with a different port of that name.
+/// If two ports have the same name, the first one counts. With `strict`, also refuses a peer that returns without a port that
+/// was mirrored, or with a different port of that name.
 std::string AdaptorComp::check_peer_ports(link::PortTable& peer) {
     const std::lock_guard lock(mutex_);
     std::string error = remove_doubles(peer, own_ports_, settings_.link);
@@ -340,7 +339,7 @@ void AdaptorComp::report_inactive() {
 void AdaptorComp::request_restart() {
     if (!run_state_.is_restart_wanted()) return;
     restarts_->start();
-    // If a task waits already, it does the same. The peer may ask any number of times.
+    // A task that is already waiting does the same. The peer may ask any number of times.
     restarts_->post_in_turn(std::chrono::nanoseconds::zero(), 0, [this] { restart_after_error(); });
 }
 

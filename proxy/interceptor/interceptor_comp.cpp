@@ -130,7 +130,7 @@ void InterceptorComp::report_useless_parameters(const link::PortTable& table) {
     }
 }
 
-/// The link and what uses it. Nothing is shared yet.
+/// Creates the link and the objects that use it. No port is shared yet.
 void InterceptorComp::create_parts(const link::PortTable& table) {
     const auto listened_changed = [this] { publish_listened_channels(); };
     link_ = std::make_unique<link::Link>(shm::Side::second, link_options(), table,
@@ -155,7 +155,7 @@ void InterceptorComp::drive(RTC::RTObject_impl& rtc) {
     activation_->add(std::make_unique<RtcDriver>(rtc, settings_.call_timeout, std::move(events)));
 }
 
-/// A tool may have reset and activated an RTC that was in ERROR: the peer, which is in ERROR since then, may go on.
+/// A tool may have reset and activated an RTC that was in ERROR. The peer, which went to ERROR with it, may then continue.
 void InterceptorComp::follow_recovery() {
     link_->post([this] {
         if (activation_->are_all_active()) failures_->send_recovery();

@@ -25,7 +25,7 @@ std::string property(const RTC::PortProfile& profile, const char* key) {
     return NVUtil::toString(profile.properties, key);
 }
 
-/// The signature of a data port's type. A reference in it would have to be kept alive by somebody: data ports carry none.
+/// Returns the signature of a data port's type, or a refusal if it contains an object reference, which nobody would keep alive.
 std::string without_references(const wire::Type& type) {
     if (wire::contains(type, wire::Kind::object)) return "?{it holds an object reference}";
     return wire::to_named_signature(type);
@@ -44,7 +44,7 @@ std::string data_signature(const std::string& type) {
     }
 }
 
-/// The same of an event's argument, which is handed to the port as its bytes are.
+/// Returns the signature of an event's argument. The port gets its bytes unchanged.
 std::string argument_signature(const std::string& type) {
     std::string signature = data_signature(type);
     const auto parsed = wire::parse_signature(signature);
@@ -81,8 +81,8 @@ link::QueuePolicy queue_of(const RTC::PortProfile& profile) {
     return queue;
 }
 
-/// The same as far as it concerns the link: an InPort that is given each message when it comes has a buffer behind that, but
-/// its sender has to wait where the buffer asks for it.
+/// Returns the part of this policy that applies in the link. An InPort that gets each message on arrival has another buffer
+/// behind the link; its sender waits only if that buffer's policy says so.
 link::QueuePolicy queue_in_link(const RTC::PortProfile& profile, RTC::PortService_ptr reference) {
     const auto queue = queue_of(profile);
     const bool waits = queue.full == link::QueuePolicy::Full::wait;
@@ -117,12 +117,12 @@ void put_component_in_front(RtcPort& port) {
     if (!port.service_port.empty()) port.service_port = prefix + port.service_port;
 }
 
-/// Puts the name of the RTC and a dot in front of each port whose name ports of several RTCs have.
+/// Prefixes a port's name with the RTC's name and a dot if several RTCs have a port of that name.
 void make_names_unique(std::vector<RtcPort>& ports) {
     const auto own_name = [](const RtcPort& port) {
         return port.service_port.empty() ? port.entry.name : port.service_port;
     };
-    std::map<std::string, std::set<std::string>> components; // that have a port of that name
+    std::map<std::string, std::set<std::string>> components; // the components that have a port of that name
     for (const auto& port : ports) components[own_name(port)].insert(port.entry.component);
     for (auto& port : ports) {
         if (components.at(own_name(port)).size() < 2) continue;
@@ -186,8 +186,8 @@ std::vector<RtcPort> enumerate_remote_ports(const RTC::PortServiceList& services
     auto ports = ports_of(services, component);
     for (auto& port : ports) {
         port.is_remote = true;
-        port.entry.queue = {}; // that of the connection by CORBA, and the port's own
-        // Each event has a connection of its own, and those to another process keep no order among each other.
+        port.entry.queue = {}; // the CORBA connection and the port have their own queues
+        // Each event has a separate connection, and connections to another process do not keep a common order.
         if (port.entry.is_event_in_port()) {
             port.entry.operations.clear();
             port.entry.signature =

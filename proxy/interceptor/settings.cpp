@@ -10,7 +10,7 @@
 namespace tandem::interceptor {
 namespace {
 
-/// A parameter without a default. Throws with what it is for.
+/// Returns a parameter that has no default. If it is missing, throws an exception that explains it.
 std::string required(coil::Properties& properties, const std::string& name, const char* meaning) {
     std::string value = properties.getProperty(name);
     if (value.empty())

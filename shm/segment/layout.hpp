@@ -330,7 +330,7 @@ struct BasicCallQueueHeader {
 // expected back; a caller that waits itself may rely on that, because it looks again before it sleeps.
 enum class WorkerPolling : std::uint32_t { no, yes, soon };
 
-// Of each slot the first 1024 calls and then every 16th are timed.
+// The first 1024 calls of each slot, and then every 16th, are timed.
 struct alignas(line_pair) CallTimes {
     Histogram round_trip; // from the begin of the call to its reply; measured by the caller
     Histogram service;    // from taken to answered; measured by the worker

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A process that dies at the k-th point of what it does, and what must hold for the one that survives it.
+// A process that dies at the k-th point of its work, and what must hold for the surviving process.
 #pragma once
 #include "../shm/fixture.hpp"
 #include "crash_point_atomics.hpp"
@@ -10,8 +10,7 @@ namespace tandem::shm::test {
 
 constexpr std::size_t arena = 64 * 1024; ///< of both sides
 
-/// Joins a link as `side`, and from then on passes points: at the k-th it dies. Its end is 0 if it has none
-/// such.
+/// Joins a link as `side`, and from then on passes points: at the k-th it dies. Exits with 0 if it passes fewer points.
 class Doomed {
   public:
     Doomed(const Link& link, Side side, unsigned k, const std::function<void(Segment&)>& work)

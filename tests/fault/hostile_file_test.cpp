@@ -23,7 +23,7 @@ RingOptions with_chunks(Side writer) {
     return {.writer = writer, .max_record = 200, .capacity = 8192, .chunk_bytes = 8192, .chunks = 2};
 }
 
-/// Everything that a side can do with what it had found; none of it may end the process.
+/// Performs all operations of a side on the objects that it had found. None of them may end the process.
 void use_all(Segment& mine, RingWriter& writer, RingReader& reader, CallClient& client, CallServer& server) {
     for (int i = 0; i < 100; ++i) {
         mine.peer_state();
@@ -62,7 +62,7 @@ TEST_CASE("a file that is shorter than its header says is refused and its observ
         REQUIRE(observed);
         CHECK(observed->segment.readability == Readability::damaged);
         CHECK(first->superseded());
-        // Only so that leaving, which touches the peer's half, is survived without the guard.
+        // Leaving touches the peer's half; without the guard, this would end the process.
         REQUIRE(truncate(first->path().c_str(), whole_file) == 0);
         first.reset();
         CHECK(link.files().empty());
@@ -127,7 +127,7 @@ TEST_CASE("what was stored into a lost page stays there when a page before it is
     Child child([&] {
         install_truncation_guard();
         auto first = join(link, Side::first, small(file_arena));
-        // Volatile: the memory is read, not what the compiler knows of the stores.
+        // Volatile, so that the compiler really reads the memory.
         volatile std::byte* const blob = first->add_blob("pages", 4 * layout::page).data();
         if (truncate(first->path().c_str(), 0) != 0) return 2;
         blob[3 * layout::page] = std::byte{7};
@@ -158,7 +158,7 @@ TEST_CASE("the guard leaves what is not a segment to the handler before it or to
         return 1;
     });
     CHECK(two.wait() == 43);
-    Child between([] { // a handler that came later and goes on to ours, which must not go on to it in turn
+    Child between([] { // a handler that was installed later and calls ours; ours must not call it back
         install_truncation_guard();
         static struct sigaction guard {};
         struct sigaction mine {};

@@ -19,9 +19,9 @@ void leave_a_corpse(const Link& link, Side side) {
 
 struct Scenario {
     const char* name;
-    bool survivor;    // is the other side there all the time?
+    bool survivor;    // whether the other side is there all the time
     bool corpse;      // a dead generation exists
-    bool joined;      // is the side that dies there already, when the points begin?
+    bool joined;      // whether the side that dies has already joined when the points begin
     const char* what; // join, leave, join and leave
 };
 

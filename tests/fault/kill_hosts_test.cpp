@@ -99,7 +99,7 @@ class LoadedHosts : public TwoHosts {
     CountsFile counts_;
 };
 
-/// A thread that wants to wake every millisecond: how late it was, the machine ran nobody, or others.
+/// A thread that wakes every millisecond. Its lateness shows how long the machine did not run this process.
 class StallWatch {
   public:
     StallWatch()
@@ -218,7 +218,7 @@ TEST_CASE(
         REQUIRE(segment);
         hosts.kill(victim);
         ++kills;
-        if (random() % 4 == 0) { // whatever it is at: loading, joining, connecting
+        if (random() % 4 == 0) { // whatever it is doing: loading, joining, connecting
             hosts.start(victim);
             up_to_ms(400);
             hosts.kill(victim);
@@ -250,7 +250,7 @@ TEST_CASE(
             },
             60s));
         const auto calls = hosts.calls_under_way();
-        REQUIRE(eventually( // none of those that were under way has been left waiting
+        REQUIRE(eventually( // no call that was under way still waits
             [&] {
                 const auto now = hosts.calls_under_way();
                 for (std::size_t i = 0; i < calls.size(); ++i)

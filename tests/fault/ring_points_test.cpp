@@ -107,7 +107,7 @@ const std::vector<WriterScenario> writers = {
      6},
 };
 
-/// Brings the ring into the state before; returns the first number that is free.
+/// Brings the ring into the state that `before` describes. Returns the first unused number.
 std::uint64_t prepare(const RingView<RealAtomics>& view, RingReader& reader, const Before& before) {
     RingProducer<RealAtomics> producer(view);
     std::uint64_t number = 1;
@@ -134,7 +134,7 @@ void check_reader_survives(RingReader& reader, const Before& before, std::uint64
     CHECK(reader.empty());
     CHECK(of_the_dead <= messages);
     CHECK(old <= before.written.size() - before.read);
-    // The dead may have been between a store and its counter, no more.
+    // The killed process may have died between a store and its counter, so the counts differ by at most one.
     const RingCounters c = reader.counters();
     const auto off = static_cast<std::int64_t>(c.sent - c.dropped() - c.received);
     CHECK(std::abs(off) <= (completed ? 0 : 1));
@@ -200,7 +200,7 @@ const std::vector<ReaderScenario> readers = {
      }},
 };
 
-/// Nobody reads any more: the writer drops the oldest, and its counters stay right.
+/// After the reader's death, the writer drops the oldest messages, and its counters stay correct.
 void check_writer_survives(RingWriter& writer) {
     const RingCounters before = writer.counters();
     std::size_t accepted = 0;

@@ -19,7 +19,7 @@ struct Flags {
 
 JoinOptions large() { return small(std::size_t{8} << 20); }
 
-/// 0.6 s, in the long run 5 s. Alive all the time, stopped for observers, and nobody can take its side.
+/// 0.6 s, in the long run 5 s. The process stays alive, observers see it as stopped, and no other process can take its side.
 void stay_stopped(const Link& link, const Segment& survivor) {
     const auto observed_state = [&] {
         const auto seen = observe(link.name);
@@ -152,5 +152,5 @@ TEST_CASE("a call to a worker that was stopped ends by its deadline and the next
     CHECK(counters.calls == 3);
     CHECK(counters.timeouts == 1);
     CHECK(counters.in_use == 0);
-    CHECK(counters.answered == 2); // what had timed out was withdrawn and has not run
+    CHECK(counters.answered == 2); // the call that timed out was withdrawn and has not run
 }

@@ -14,7 +14,7 @@ namespace tandem::shm::test {
 /// entered, or when it is done.
 class Stepped {
   public:
-    /// May this process trace its children? (A container may forbid it.)
+    /// Returns whether this process may trace its children, which a container may forbid.
     static bool possible() {
         Child probe([] { return ptrace(PTRACE_TRACEME, 0, nullptr, nullptr) == 0 ? 0 : 1; });
         return probe.wait() == 0;
@@ -38,7 +38,7 @@ class Stepped {
     }
 
     bool died() const { return WIFSIGNALED(status_); }
-    /// 0 if it died, or came to its end.
+    /// Returns 0 if it was killed or has ended.
     int result() const { return WIFEXITED(status_) ? WEXITSTATUS(status_) : 0; }
     std::string point() const {
         return std::string(entered_ ? "before" : "after") + " system call " + std::to_string(last_call_);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two processes that do what hosts do: join, exchange records and calls, and when the other one dies or a
-// newer generation appears, leave and join again. What they see they note in memory that outlives them.
+// Two processes that act as hosts: they join and exchange records and calls. When the other one dies or a newer generation
+// appears, they leave and join again. They record what they see in memory that outlives them.
 #pragma once
 #include "../shm/fixture.hpp"
 #include "shared.hpp"

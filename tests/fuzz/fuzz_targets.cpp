@@ -254,8 +254,7 @@ void FuzzTargets::call_with_shipping(Input& input) {
     Mutator::unleash(input, queue_.hostile, slots_at);
     Mutator::rewrite();
     const auto found = victim_->find_call_queue(Side::first, "c");
-    // The header may say a little more by now: as much as the slots' room, which is whole lines, has place
-    // for.
+    // The header may now claim a slightly longer text: up to the slots' space, which consists of whole cache lines.
     const std::size_t longest = found->view.max_bytes;
     demand(longest <= max_call + layout::line_pair, "longest arguments");
     CallClient client(*found, {.spin = 500ns});
@@ -264,7 +263,7 @@ void FuzzTargets::call_with_shipping(Input& input) {
     for (std::size_t i = 0; i < max_operations / 8 && !input.used_up(); ++i) {
         const std::uint8_t what = input.byte();
         if (what % 2 == 0) Mutator::rewrite();
-        // A call that nobody answers, and what a rewritten slot makes the server take.
+        // Makes a call that is not answered, and lets the server take what a rewritten slot contains.
         const Reply reply = client.call({payload.data(), what % (max_call + 8)}, 5us);
         demand(reply.bytes.size() <= longest, "length of a reply");
         if (what % 5 == 0) Mutator::rewrite();

@@ -13,7 +13,7 @@ class FuzzTargets {
   public:
     FuzzTargets();
 
-    /// Runs one input. Whatever comes out of shared memory out of bounds ends the process.
+    /// Runs one input. Ends the process if a result from shared memory is out of bounds.
     void run(Input& input);
 
   private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Recordings that another program wrote, were cut or are damaged: each is read to where it goes, or gives one line; no
-// message comes from outside of its file.
+// Recordings of other programs, truncated and damaged ones. Each is read as far as possible or refused with one line, and no
+// message comes from outside its file.
 #include "apps/tandem/mcap/check_file.hpp"
 #include "tests/apps/tandem/mcap/sample.hpp"
 

@@ -35,7 +35,7 @@ class Mutator {
     }
     static void restrain() { input_ = nullptr; }
 
-    /// Before a look of the victim's: meddles about every eighth time.
+    /// Called before the victim reads shared memory; changes it about every eighth time.
     static void look() {
         if (input_ != nullptr && !input_->used_up() && input_->byte() < 32) rewrite();
     }
@@ -44,7 +44,7 @@ class Mutator {
         Input& input = *input_;
         const std::size_t words = target_.size() / word_bytes;
         std::size_t at = input.number(2);
-        // Mostly where it hurts: the first words of the headers' lines, and of those of records and slots.
+        // Mostly changes the words that matter: the first words of the lines of headers, records and slots.
         const std::size_t line = at / 4 % 12, in_line = at / 64 % 4 == 0 ? at / 256 % 8 : at / 128 % 2;
         const std::size_t where = at % 4;
         if (where == 0) at = 8 * line + in_line;
@@ -55,7 +55,7 @@ class Mutator {
     }
 
   private:
-    /// Words that are possible are worth more than any that can be refused at once.
+    /// Plausible words find more errors than words that are refused at once.
     static std::uint64_t value_like(std::uint64_t old) {
         Input& input = *input_;
         const std::uint8_t how = input.byte();

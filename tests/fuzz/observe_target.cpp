@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the observing commands do with a link whose owner rewrites it before and during their looks: `tandem record`, `echo`,
+// What the observing commands do with a link whose owner rewrites it before and while they read it: `tandem record`, `echo`,
 // `hz` and `top` find ports, follow messages and calls, and write them as JSON, IDL and a recording.
 #include "mutated_atomics.hpp"
 

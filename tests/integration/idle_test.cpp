@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two hosts whose components all wait: nobody wakes up, and whatever happens then is noticed.
+// No thread of two hosts wakes up while all components wait, and every later event is noticed.
 #include "two_hosts.hpp"
 
 #include "tests/support/context_switches.hpp"
@@ -101,8 +101,8 @@ long sum_of(const std::map<std::string, long>& switches) {
 /// 3 s, with TANDEM_STRESS=20 and more 60 s.
 std::chrono::seconds observed_time() { return std::chrono::seconds(tandem::test::stress(3, 60)); }
 
-// Nothing of ours wakes up. What is left to the system: a signal, a page that was taken away, a thread that a debugger
-// looks at. The slowest timer that would be a fault is one of a second.
+// Nothing of ours wakes up. The system may cause some wake-ups: a signal, a reclaimed page, a debugger. The slowest timer that
+// would be a fault is one of a second.
 constexpr long max_switches = 2;
 
 } // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures to 64 MiB, from an OPRoS component to an RTC and back; those of cameras, whatever they say of themselves.
+// Pictures of up to 64 MiB, from an OPRoS component to an RTC and back, and pictures of cameras with any `bpp`.
 #include "two_hosts.hpp"
 
 #include <catch2/catch.hpp>

@@ -62,7 +62,7 @@ class Run {
         return std::stoi(output_.substr(output_.find(text) + text.size()));
     }
     void signal(int number) { ::kill(process_->pid(), number); }
-    /// -1 if it does not end within a bound that is out of proportion, or was killed.
+    /// -1 if it was killed or does not end within a generous time.
     int exit_code() {
         for (int i = 0; i < 3000 && !process_->poll(); ++i) {
             pipe_.read_available(output_);
@@ -104,7 +104,7 @@ class NotifySocket {
         unsetenv("WATCHDOG_USEC");
         close(fd_);
     }
-    /// The next message; empty if none comes within a bound that is out of proportion.
+    /// Returns the next message; empty if none comes within a generous time.
     std::string next() {
         char text[512];
         const auto length = recv(fd_, text, sizeof text, 0);
@@ -216,7 +216,7 @@ TEST_CASE("tandem run restarts a killed host up to the given number of times") {
     REQUIRE(run.says("all hosts are ready"));
     ::kill(run.pid_after("rtm_host started, pid "), SIGKILL);
     REQUIRE(run.says("tandem run: rtm_host started again (1 of 1), pid "));
-    // Not the end of the output: the new host may have said the rest by the time the line above is read.
+    // Searches more than the end of the output, because the new host may have printed the rest before the line above was read.
     const std::size_t restarted = run.output().find("rtm_host started again");
     CHECK(run.says("is up again", restarted));
     CHECK(run.says("reply: hello ", restarted));

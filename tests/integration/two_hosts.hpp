@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-/// A port of 127.0.0.1 that nobody listens at.
+/// Returns a port of 127.0.0.1 without a listener.
 std::string unused_port();
 
 /// The files of a bridge between TalkerComp and EchoRtc0; texts may be changed before they are used.
@@ -74,7 +74,7 @@ class TwoHosts {
     /// Everything a host has written so far.
     std::string output(const std::string& host) const;
     bool says(const std::string& host, const std::string& text, std::size_t from = 0) const;
-    /// Exit code of a host that ends by itself; -1 if it does not within a bound that is out of proportion.
+    /// Returns the exit code of a host that ends by itself; -1 if it does not end within a generous time.
     int exit_code(const std::string& host);
     bool runs(const std::string& host) { return !hosts_.at(host).poll(); }
     int stop(const std::string& host);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// CountOut sends 1, 2, 3, ... in its cycles, CountIn sends each number back when it comes. Both write down what happens, a
-// line each: CountIn `number nanoseconds_since_it_was_sent`, CountOut `number nanoseconds_until_it_was_back` and, at its
-// deactivation, `longest write nanoseconds`. With the parameters `tcp_port` of CountIn and `tcp_peer` of CountOut, each other cycle
-// sends 16 bytes by plain TCP and waits for them instead: `tcp number nanoseconds_until_they_were_back`.
+// CountOut sends 1, 2, 3, ... in its cycles, and CountIn sends each number back on arrival. Both write a line for each event:
+// CountIn `number nanoseconds_since_it_was_sent`, CountOut `number nanoseconds_until_it_was_back` and, at its deactivation,
+// `longest write nanoseconds`. With the parameters `tcp_port` of CountIn and `tcp_peer` of CountOut, each other cycle sends 16
+// bytes by plain TCP and waits for them instead: `tcp number nanoseconds_until_they_were_back`.
 #include "tests/integration/rtm/register_rtc.hpp"
 
 #include <rtm/DataFlowComponentBase.h>

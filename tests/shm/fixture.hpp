@@ -59,8 +59,7 @@ struct Pair {
     std::unique_ptr<Segment> first, second;
 };
 
-/// A child process that runs a function and exits with what it returns; killed at the end of the scope if
-/// need be.
+/// A child process that runs a function and exits with its result. It is killed at the end of the scope if it still runs.
 class Child {
   public:
     static constexpr int killed = -1, crashed = -2; ///< ends without an exit code

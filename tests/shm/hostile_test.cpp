@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The other side writes whatever it likes. Every byte of every header is overwritten with several values,
-// before and after the object was opened; whatever comes out must be an Error or a result within bounds, in
-// bounded time.
+// The other side writes whatever it likes. Overwrites every byte of every header with several values, before and after the
+// object is opened. Each operation must end in bounded time with an Error or a result within bounds.
 #include "fixture.hpp"
 
 #include "shm/call/call_client.hpp"
@@ -239,7 +238,7 @@ TEST_CASE("while another process overwrites everything, nothing crashes, hangs o
         if (const auto record = reader->read_newest()) too_long += record->bytes.size() > 100 ? 1 : 0;
         too_long += client.call(bytes_of("argument"), 200us).bytes.size() > 64 ? 1 : 0;
         pair.second->doorbell().wait(1us);
-        try { // a side that gave up starts again; otherwise the test would soon test nothing
+        try { // a side that has given up starts again, so that the test continues to test something
             if (reader->corrupt()) reader = std::make_unique<RingReader>(read);
             if (writer->corrupt()) writer = std::make_unique<RingWriter>(written);
         } catch (const Error&) {

@@ -10,7 +10,7 @@
 namespace tandem::test {
 
 /// How often each thread of a process has gone to sleep so far, by the thread's name and number: a thread that is never woken
-/// keeps its count. That others have taken its processor does not count.
+/// keeps its count. Involuntary switches, when others take its processor, do not count.
 inline std::map<std::string, long> count_context_switches(pid_t process) {
     std::map<std::string, long> counts;
     for (const auto& task :

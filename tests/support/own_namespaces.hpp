@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Namespaces of a test's own: what it does to the system reaches nobody else, and nobody else reaches it.
+// Namespaces for one test: it can neither affect other processes nor be affected by them.
 #pragma once
 #include <fstream>
 #include <sched.h>

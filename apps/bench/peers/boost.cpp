@@ -37,8 +37,7 @@ class BoostEndpoint {
     }
 
   private:
-    // The messages that fit. Of large messages only a few, because otherwise the queue would be larger than
-    // the memory.
+    // The messages that fit. Only a few messages if they are large, because otherwise the queue would exceed the memory.
     static constexpr std::size_t depth = bytes <= 4096 ? 1024 : 4;
     Message<bytes> message_;
     bip::message_queue out_, in_;

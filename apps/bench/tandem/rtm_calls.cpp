@@ -108,7 +108,7 @@ void measure_calls(Session& session) {
     measure_calls_between_hosts(session, [](double) {});
 }
 
-/// As a control loop calls: 500 a second, so that both processes have slept before.
+/// Calls 500 times a second, like a control loop, so that both processes have slept before each call.
 void measure_paced_calls(Session& session) {
     measure_calls_between_hosts(session,
                                 [](double) { std::this_thread::sleep_for(std::chrono::milliseconds(2)); });

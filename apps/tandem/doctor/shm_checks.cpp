@@ -21,7 +21,7 @@ struct Mount {
     }
 };
 
-/// Returns the mount at /dev/shm. Of several mounts on top of each other the last one is visible.
+/// Returns the mount at /dev/shm. If several mounts are on top of each other, the last one is visible.
 std::optional<Mount> shm_mount(const Machine& machine) {
     std::optional<Mount> found;
     std::istringstream lines(machine.content("/proc/self/mounts").value_or(""));

@@ -67,7 +67,7 @@ inline bool hangs(const ComponentStatus& component) { return component.in_cycle_
 /// Describes a component that hangs or is not active.
 std::string describe_component(const ComponentStatus& component);
 
-/// Returns the worst finding about the links. Of several findings of one level, the first link's.
+/// Returns the worst finding about the links. If several findings have the same level, the first link's counts.
 Verdict judge(const State& state);
 
 } // namespace tandem::monitor

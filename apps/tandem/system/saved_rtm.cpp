@@ -62,7 +62,7 @@ class Snapshot {
     }
 
   private:
-    // A connection is listed by each of its ports. That of the sender, or of the first port, has it.
+    // A connection is listed by each of its ports. The component of the sender, or of the first port, has it.
     void take_connection(const json& port, const json& connection) {
         const std::string id = connection["id"], from = port["name"];
         const std::string to = connection["with"].size() == 1 ? connection["with"][0].get<std::string>() : "";

@@ -60,7 +60,7 @@ ChairLink::ChairLink(const std::string& link, std::string drive) : drive_(std::m
     reader_.emplace(*second_->find_ring(shm::Side::first, link::ring_name(port_name)));
 }
 
-// Of a batch that is late, only the newest ticks are sent.
+// Only the newest ticks of a late batch are sent.
 void ChairLink::update(const ComponentTraces& traces) {
     const auto& ticks = traces.hw.records();
     const std::size_t all = traces.hw.dropped() + ticks.size(),

@@ -11,7 +11,7 @@ namespace tandem {
 
 // For the method or operation that is called, in the thread in which it runs.
 
-/// Returns whether nobody waits for the result of the call that this thread executes: the caller has cancelled it, its
+/// Returns whether the result of the call that this thread executes is no longer needed: the caller has cancelled it, its
 /// deadline has passed, the caller's process has ended, or this host is ending. A long method should check this from time to
 /// time and return; its result is dropped. Returns false in a thread that executes no call from a link. Takes a few loads.
 bool call_cancelled();
@@ -51,7 +51,7 @@ class CallHandle {
     std::shared_ptr<call::HandleState> m_state;
 };
 
-/// While it exists, calls of this thread belong to the handle. Of nested scopes, the innermost counts. [one thread]
+/// While it exists, calls of this thread belong to the handle. If scopes are nested, the innermost one counts. [one thread]
 class CallScope {
   public:
     explicit CallScope(const CallHandle& handle);

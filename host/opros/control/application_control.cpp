@@ -49,7 +49,7 @@ json describe(ComponentHost& component) {
             {"period_ms", period_ms(component.profile())}};
 }
 
-/// Of another text than the log's line if the component went to ERROR without the engine's notice, as AdaptorComp does.
+/// The text differs from the line in the log if the component went to ERROR without notifying the engine, as AdaptorComp does.
 std::string error_of(ComponentHost& component) {
     if (component.component().getStatus() != OPROS_CS_ERROR) return "";
     const std::string error = component.last_error();

@@ -66,7 +66,7 @@ void get_all(wire::CdrReader& in, T* p, long size) {
     }
 }
 
-/// Numbers whose bytes are their values are copied as one block; the others may be wrong one by one.
+/// Numbers of which every bit pattern is valid are copied as one block. All others are checked one by one.
 template <class T>
 void get_sequence(wire::CdrReader& in, std::vector<T>& values) {
     if constexpr (std::is_same_v<T, bool> || std::is_same_v<T, wchar_t>) {
@@ -100,7 +100,7 @@ bool CdrOarchive::store_time_word(T value) {
     }
 }
 
-/// The same in the other direction.
+/// Returns the next word of the leading time in `value` if one is still missing.
 template <class T>
 bool CdrIarchive::load_time_word(T& value) {
     if constexpr (std::is_same_v<T, unsigned int>) {

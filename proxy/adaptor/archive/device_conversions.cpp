@@ -10,7 +10,7 @@ struct DeviceConversion {
     std::string_view rtm, to_rtm, to_opros;
 };
 
-// Of a GPS of v1.1: latitude, longitude, time as a text, velocity.
+// The fields of a GPS of v1.1 are latitude, longitude, time as a text, and velocity.
 constexpr std::string_view gps_to_rtm =
     "latitude: from 1; longitude: from 2; horizontalSpeed: from 4; drop 3; timeFromGPS: default 0; altitude: "
     "default "
@@ -21,7 +21,7 @@ constexpr std::string_view gps_to_opros = "1: from latitude; 2: from longitude; 
                                           "drop horizontalError; drop verticalError; drop heading; drop "
                                           "verticalSpeed; drop numSatellites; drop fixType";
 
-// Of a posture, the fields are three turning rates, three accelerations, three angles.
+// The fields of a posture are three turning rates, three accelerations and three angles.
 constexpr DeviceConversion device_conversions[] = {
     {"ObjectLocation", 3, "TimedPose2D", "positions", "positions"},
     {"ObjectPosition", 6, "TimedPose3D", "positions", "positions"},

@@ -16,7 +16,7 @@ namespace {
 // A type that contains itself would be loaded without end.
 constexpr std::size_t max_depth = 30;
 
-/// In memory, so that a string_view of it can be made.
+/// A variable, so that a string_view can refer to it.
 template <class T>
 constexpr char type_code = code_of<T>();
 
@@ -81,7 +81,7 @@ long SignatureArchive::read_array_head(long size, char, char) {
     return 1;
 }
 
-/// The macros take the name from the source: of `pose.x` and of `"x"` the identifier `x` is kept.
+/// The macros take the name from the source text. Only the last identifier is kept: `x` of `pose.x` and of `"x"`.
 iarchive& SignatureArchive::read_start_tag(const std::string& name) {
     const auto is_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
     const auto end = std::find_if(name.rbegin(), name.rend(), is_word);

@@ -15,7 +15,7 @@ namespace {
 
 using wire::Type;
 
-/// The first difference, with the time left aside where only the peer has one, since it is added by itself.
+/// Returns the first difference. Ignores a leading time that only the peer has, because it is added automatically.
 std::string describe_difference(const Type& own, const Type& peer, bool sends) {
     const bool time_is_added = wire::is_timed(peer) && !wire::is_timed(own);
     return wire::first_difference(own, time_is_added ? wire::without_time(peer) : peer, sends);
@@ -95,7 +95,7 @@ TypeCheck check_type(const opros_any& sample, const link::Port& peer, bool sends
                                    "signature, with or without the leading time '(uu)'",
                                    wire::to_signature(own), peer.type, wire::to_signature(expected),
                                    check.error, remedy));
-    } catch (const wire::SignatureError& error) { // the peer's: it came from another process
+    } catch (const wire::SignatureError& error) { // the peer's signature, which came from another process
         return refusal(fmt::format("cannot be compared: {}", error.what()));
     } catch (const std::exception& error) { // thrown by the archive, or by the type's own load()
         return refusal(fmt::format("cannot cross the link: {}", error.what()));

@@ -14,7 +14,7 @@ using wire::Type;
 
 namespace {
 
-/// A value of the discriminator for that case; of the default case the first that no other case has.
+/// Returns a value of the discriminator for that case; for the default case, the first value that no other case has.
 std::int64_t label_of(const Type& type, const Type& chosen) {
     if (!chosen.labels.empty()) return chosen.labels.front();
     const auto is_taken = [&](std::int64_t value) {
@@ -46,7 +46,7 @@ Type choose_union_cases(const Type& type, std::size_t run, std::vector<long long
         return chosen;
     }
     for (Type& child : chosen.children) child = choose_union_cases(child, run, values);
-    // An any is asked for as a string and the octets of its value.
+    // load() reads an any as a string and the octets of its value.
     if (type.children.empty()) values.insert(values.end(), type.kind == Kind::any ? 2 : 1, 0);
     return chosen;
 }

@@ -37,7 +37,7 @@ std::string MirrorInPort::first_refusal() const {
     return first_refusal_;
 }
 
-/// Where ports of several types push here: a name costs an allocation.
+/// Needed only if ports of several types push here, because the name costs an allocation.
 MirrorInPort::Encoding* MirrorInPort::find_encoding_by_name(const opros_any& value) {
     const std::string type = value.type();
     const std::lock_guard lock(encodings_mutex_);
@@ -77,7 +77,7 @@ ReturnType MirrorInPort::push_by_archive(opros_any& value) {
         });
         return result_of(sent);
     } catch (const std::exception& error) {
-        // checkType() has accepted the type; single values may still not cross, as a string with a NUL in it.
+        // checkType() has accepted the type, but a single value may not be able to cross, for example a string with a NUL.
         if (!rt::rehearsing()) channel_.refuse(error.what());
         return OPROS_BAD_INPUT_PARAMETER;
     }

@@ -32,7 +32,7 @@ bool MirrorOutPort::checkType(DataPort* target) {
         tap = taps_.back().get();
         has_other_targets_ = taps_.size() > 1;
     }
-    // Without a lock: the target asks the source, which takes them.
+    // Called without a lock, because the target calls the source, which takes the locks.
     if (tap && input->addSource(tap) != OPROS_SUCCESS) {
         error = fmt::format("port '{}': the target takes no values from a bridge", peer_.name);
         remove(taps_.size() - 1);
@@ -64,7 +64,7 @@ void MirrorOutPort::clearConnection() {
     while (!taps_.empty()) remove(taps_.size() - 1);
 }
 
-/// The source is taken from its target first, after which nobody uses it.
+/// Removes the source from its target first; after that, nobody uses the source.
 void MirrorOutPort::remove(std::size_t index) {
     OutTap& tap = *taps_[index];
     tap.target().removeSource(&tap);
@@ -82,8 +82,8 @@ void MirrorOutPort::set_depth(OutTap& tap, std::size_t depth) {
     set_channel_depth();
 }
 
-/// With the channel's lock held. What no target's queue has room for, the ring's reader skips. After the last target it
-/// stays as it is, so that what was skipped stays counted.
+/// With the channel's lock held. The ring's reader skips messages for which no target's queue has room. Without a target the
+/// depth stays unchanged, so that skipped messages stay counted.
 void MirrorOutPort::set_channel_depth() {
     if (taps_.empty()) return;
     publish_room(nullptr);
@@ -111,7 +111,7 @@ void MirrorOutPort::keep_for_others(const OutTap& reader, std::span<const std::b
         if (tap.get() != &reader) tap->keep(bytes, stamp);
 }
 
-/// The link is told only when that changes: it asks the peer, which costs a call across the link.
+/// Calls the link only when the listener changes, because the link then calls the peer.
 void MirrorOutPort::set_listener(OutTap& tap, DataPortListener* listener) {
     DataPortListener* told = nullptr;
     {

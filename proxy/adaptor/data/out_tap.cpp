@@ -11,7 +11,7 @@
 namespace tandem::adaptor {
 namespace {
 
-// Messages that wait for a target whose queue grows while another one reads faster.
+// The most messages kept for a target with an unlimited queue while another target reads faster.
 constexpr std::size_t max_kept = 64;
 
 } // namespace
@@ -42,7 +42,7 @@ void OutTap::forget_oldest_kept() {
     --kept_count_;
 }
 
-/// One for this target alone. A target that wants the newest one only misses nothing.
+/// Counts a message that only this target has lost. A target that wants only the newest message misses nothing.
 void OutTap::count_dropped() {
     if (depth_ == 1) return;
     port_.channel().count_discarded_locked();
@@ -51,7 +51,7 @@ void OutTap::count_dropped() {
                   port_.peer().name, dropped_.count());
 }
 
-/// Of several targets: drops what this one's queue has no room for. With the channel's lock held.
+/// With the channel's lock held. If the port has several targets, drops the messages for which this target's queue has no room.
 void OutTap::skip_beyond_depth() {
     while (depth_ != 0 && kept_count_ + port_.channel().waiting_locked() > depth_) {
         if (kept_count_ != 0) {
@@ -65,7 +65,7 @@ void OutTap::skip_beyond_depth() {
     }
 }
 
-/// False for a message that cannot be converted; it is dropped.
+/// Returns false for a message that cannot be converted. The message is dropped.
 inline bool OutTap::decode(std::span<const std::byte> bytes, std::uint64_t stamp, opros_any* value) {
     message_bytes_ = bytes.size();
     opros_any::holder_base* const held = value ? value->held() : nullptr;
@@ -84,13 +84,14 @@ inline bool OutTap::decode(std::span<const std::byte> bytes, std::uint64_t stamp
     return true;
 }
 
-// Called in rehearsals only. A conversion would be counted.
+// Called in rehearsals only. Does not run conversions, because they are counted.
 bool OutTap::again(opros_any& value) { return !check_.conversion && take(&value); }
 
 bool OutTap::take(opros_any* value) {
     auto& channel = port_.channel();
     if (!channel.mutex().lock_unless_rehearsing()) return false;
-    const rt::ShortLock lock(channel.mutex(), std::adopt_lock); // no rebind, and no other read
+    const rt::ShortLock lock(channel.mutex(),
+                             std::adopt_lock); // also keeps the channel bound
     if ((port_.has_other_targets() || kept_count_ > 0) && !rt::rehearsing()) [[unlikely]]
         return read_beside_others(value);
     for (;;) {
@@ -103,7 +104,7 @@ bool OutTap::take(opros_any* value) {
     }
 }
 
-/// Of a port that has other targets, or had some. With the channel's lock held.
+/// With the channel's lock held. Reads for a port that has or had other targets.
 bool OutTap::read_beside_others(opros_any* value) {
     for (;;) {
         if (port_.has_other_targets()) skip_beyond_depth();
@@ -119,7 +120,7 @@ bool OutTap::read_beside_others(opros_any* value) {
     }
 }
 
-/// Reads a message that the other targets have to keep. A sender that waits must not send into room that is theirs.
+/// Reads a message and copies it for the other targets. A waiting sender must not use the room that their copies need.
 const shm::Record* OutTap::read_for_all() {
     auto& channel = port_.channel();
     const bool waits = channel.sender_waits_locked();
@@ -129,7 +130,7 @@ const shm::Record* OutTap::read_for_all() {
     return record;
 }
 
-/// What lies in the ring is for this target as for all others.
+/// The messages in the ring are for all targets, including this one.
 long OutTap::waiting() {
     const rt::ShortLock lock(port_.channel().mutex());
     const std::size_t waiting = kept_count_ + port_.channel().waiting_locked();

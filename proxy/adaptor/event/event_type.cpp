@@ -12,8 +12,8 @@
 namespace tandem::adaptor {
 namespace {
 
-/// What follows the id in the peer's message, which is a structure or its members; nothing if it begins with no string.
-/// CDR gives a structure no bytes of its own, so that both have the same ones.
+/// Returns the type that follows the id in the peer's message: a structure or its members, which have the same bytes in CDR.
+/// Returns nothing if the message does not begin with a string.
 std::optional<wire::Type> content_of(const link::Port& peer) {
     wire::Type message = wire::parse_signature(peer.signature);
     if (wire::is_timed(message)) message = wire::without_time(message);

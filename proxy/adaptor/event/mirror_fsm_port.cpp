@@ -50,7 +50,7 @@ bool MirrorFsmPort::accept(const opros_any& sample) {
                 const auto type = type_of(content.sample, event.argument);
                 content.signature = wire::to_signature(type);
                 fits = wire::is_assignable(type, event.argument);
-            } catch (const std::exception&) { // of the archive, or of the type's own load(): '?' says so
+            } catch (const std::exception&) { // the content does not fit, and its signature stays '?'
             }
         if (fits)
             content.events.insert(name);
@@ -73,7 +73,8 @@ bool MirrorFsmPort::accept(const opros_any& sample) {
     return type_error().empty();
 }
 
-/// What is to be encoded for the event; nullptr if it has not the argument that the peer takes. `id`: the peer's.
+/// Returns the value to encode for the event; nullptr if the event lacks the argument that the peer expects. `id` is the
+/// peer's.
 const opros_any* MirrorFsmPort::argument_of(Event& event, const std::string& id) const {
     for (const auto& [type, content] : contents_) {
         if (!content.events.contains(id)) continue;

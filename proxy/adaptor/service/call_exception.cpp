@@ -15,8 +15,8 @@ namespace {
 using link::CallStatus;
 using link::Reply;
 
-/// The message of these values, one member each. A union among the `declared` fields is looked for. Throws what an archive
-/// throws.
+/// Returns the type of a message with one member for each value. Looks for unions of the `declared` fields. Throws the
+/// exceptions of archives.
 wire::Type types_of(const std::vector<opros_params>& values, const wire::Type& declared) {
     wire::Type message;
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -56,7 +56,7 @@ class EncodedFields final : public opros::exception_fields {
     const std::vector<std::byte> bytes_;
 };
 
-/// False when a field has another type than the exception's declaration says.
+/// Returns false if the type of a field differs from the exception's declaration.
 bool encode_fields(const std::vector<opros_params>& values, const wire::ExceptionType& declared,
                    std::vector<std::byte>& bytes) {
     if (!is_assignable(types_of(values, declared.fields), declared.fields)) return false;
@@ -92,7 +92,7 @@ Reply make_reply(const MethodInvokeException& exception, const wire::Operation& 
         return Reply::failure(CallStatus::exception,
                               fmt::format("{} ({}, whose fields cannot cross: {})", exception.what(),
                                           exception.getId(), error.what()));
-    } catch (const opros::archive::archive_type_exception&) { // the same as another type
+    } catch (const opros::archive::archive_type_exception&) { // handled like a field of another type
     }
     return Reply::failure(CallStatus::exception,
                           fmt::format("{} ({} with fields of other types than the IDL's '{}')",

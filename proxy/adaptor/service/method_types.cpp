@@ -23,7 +23,7 @@ using wire::Type;
 class Recorder final : public MethodDescription {
   public:
     Recorder() = default;
-    /// The values are given out as SignatureArchive says, to the result and to each argument.
+    /// Passes the values to the archives of the result and of each argument (SignatureArchive).
     Recorder(std::vector<long long> of_result, std::vector<std::vector<long long>> of_arguments)
         : result_(std::move(of_result)), values_(std::move(of_arguments)) {}
 
@@ -58,7 +58,7 @@ class Recorder final : public MethodDescription {
 
 std::string text_of(const std::optional<Type>& type) { return type ? type_signature(*type) : "void"; }
 
-/// Throws unless the method's argument can stand for the operation's.
+/// Throws if the method's argument cannot represent the operation's.
 Direction match_argument(const MethodTypes::Argument& method, const wire::Argument& operation,
                          std::size_t number) {
     if (!is_assignable(method.type, operation.type))
@@ -75,8 +75,8 @@ bool is_result_assignable(const std::optional<Type>& method, const std::optional
     return method && operation ? is_assignable(*method, *operation) : !method && !operation;
 }
 
-/// Whether the method has the operation's inout and out arguments in its result: as a structure with the operation's
-/// result, or itself, if there is but one of them.
+/// Returns whether the method's result contains the operation's inout and out arguments: in a structure with the operation's
+/// result, or alone if there is only one.
 bool returns_everything(const MethodTypes& method, const wire::Operation& operation) {
     Type arguments;
     for (const auto& argument : method.arguments) {
@@ -89,7 +89,7 @@ bool returns_everything(const MethodTypes& method, const wire::Operation& operat
     return reply.size() == 1 && !operation.result && is_assignable(*method.result, reply.front());
 }
 
-/// The cases of the union of the operation that has most of them; 0 if it has none.
+/// Returns the largest number of cases of any union in the operation; 0 if there is no union.
 std::size_t count_cases(const wire::Operation& operation) {
     std::size_t max_cases = operation.result ? count_union_cases(*operation.result) : 0;
     for (const auto& argument : operation.arguments)
@@ -97,7 +97,7 @@ std::size_t count_cases(const wire::Operation& operation) {
     return max_cases;
 }
 
-/// Whether the method reads case number `run` of each union of the operation, and everything else.
+/// Returns whether the method reads case number `run` of each union of the operation, and all other values.
 bool reads_cases(Method& method, const wire::Operation& operation, std::size_t run,
                  std::vector<bool>& writable) {
     std::vector<long long> of_result;
@@ -122,7 +122,7 @@ bool reads_cases(Method& method, const wire::Operation& operation, std::size_t r
     return true;
 }
 
-/// The operation's types, if the method reads every case of its unions; nothing if not, or if there are none.
+/// Returns the operation's types if the method reads every case of its unions; otherwise, or if there are no unions, nothing.
 std::optional<MethodTypes> match_unions(Method& method, const wire::Operation& operation) {
     const std::size_t cases = count_cases(operation);
     if (cases == 0) return std::nullopt;
@@ -155,7 +155,7 @@ MethodTypes describe_method(Method& method, const wire::Operation* expected) {
     try {
         Recorder recorder;
         if (method.describe(recorder)) return recorder.types();
-    } catch (const std::exception& error) { // by the archive, or by a type's own load()
+    } catch (const std::exception& error) { // thrown by the archive or by a type's own load()
         why = error.what();
     }
     throw SignatureError(fmt::format("its types cannot cross the link: {}: {}", method.signature(), why));

@@ -33,7 +33,7 @@ MirrorProvidedPort::MirrorProvidedPort(link::Port peer, link::Link& link,
     : peer_(std::move(peer)), operations_(peer_.operations), link_(link), call_timeout_(call_timeout),
       names_(std::move(names)) {}
 
-/// Compared now, once, so that a call need not carry anything but CDR.
+/// Compares the types once, so that calls carry only CDR.
 std::string MirrorProvidedPort::bindMethod(Method* required) {
     const std::string& name = required->getName();
     Binding binding{name, name, {}, {}, {}, true, ""};
@@ -58,7 +58,7 @@ bool MirrorProvidedPort::Binding::is_same(const Binding& other) const {
            pictures == other.pictures;
 }
 
-/// Components of two authors seldom agree on names: those that the types allow are told.
+/// Components of different authors often use different names, so the message lists the operations whose types fit.
 std::string MirrorProvidedPort::why_unknown(const std::string& method, const MethodTypes& types) const {
     std::vector<std::string> fitting;
     for (const auto& [name, operation] : operations_)
@@ -147,8 +147,8 @@ ReturnType MirrorProvidedPort::call(const Binding& binding, std::span<const Call
     if (arguments.size() != binding.directions.size()) return OPROS_BAD_INPUT_PARAMETER;
     wire::MessageBuffer memory;
     const auto reply = make_call(binding, arguments, memory);
-    // OPRoS stubs return the result itself, so a failure can only be an exception. The host leaves the
-    // component ACTIVE after it: the next call may succeed.
+    // OPRoS stubs return the result itself, so a failure can only be an exception. The host leaves the component ACTIVE,
+    // because the next call may succeed.
     if (reply.status != CallStatus::ok)
         throw make_exception(peer_.name + "." + binding.method, binding.types, reply.copy(), call_timeout_);
     if (!binding.waits) return OPROS_SUCCESS;

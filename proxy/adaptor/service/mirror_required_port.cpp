@@ -97,7 +97,7 @@ void MirrorRequiredPort::bind_methods(ProvidedServicePort& provided) {
     suggest_methods(provided);
 }
 
-/// Components of two authors seldom agree on names: those that the types allow are told.
+/// Components of different authors often use different names, so the message lists the methods whose types fit.
 void MirrorRequiredPort::suggest_methods(ProvidedServicePort& provided) {
     std::map<std::string, std::vector<std::string>> fitting; // methods, by operation
     for (auto at = provided.getFirst(); at != provided.getEnd(); ++at) {
@@ -112,7 +112,7 @@ void MirrorRequiredPort::suggest_methods(ProvidedServicePort& provided) {
             peer_.name, methods, (methods.size() == 1 ? methods[0] : "METHOD") + "=" + operation);
 }
 
-/// Methods that the peer does not require may have types that cannot cross: nothing is said about them.
+/// Ignores methods that the peer does not require, even if their types cannot cross.
 void MirrorRequiredPort::bind_method(const std::string& name, Method& method) {
     if (names_.is_of_another(name)) return;
     const std::string& peers_name = names_.of(name);
@@ -122,7 +122,7 @@ void MirrorRequiredPort::bind_method(const std::string& name, Method& method) {
     if (known && !known->problem.empty()) return;
     try {
         const auto types = describe_method(method, known ? &known->types : nullptr);
-        // Where the peer does not know its IDL, the methods are the only description that there is.
+        // If the peer does not know its IDL, the methods are the only description of the operations.
         Binding binding{name,
                         method.provided(),
                         known ? known->types : wire::parse_operation(types.operation_signature()),
@@ -137,7 +137,7 @@ void MirrorRequiredPort::bind_method(const std::string& name, Method& method) {
     }
 }
 
-/// Of a few operations, since an interface may have many.
+/// Describes only a few operations, because an interface may have many.
 std::string MirrorRequiredPort::describe_problems() const {
     constexpr std::size_t shown = 3;
     std::vector<std::string> lines;
@@ -178,7 +178,7 @@ Reply MirrorRequiredPort::serve(const link::Request& request) {
     const std::shared_lock lock(mutex_);
     const auto bound = bindings_.find(request.operation);
     if (bound == bindings_.end()) {
-        // Also of a port whose connection was refused.
+        // Also answers for a port whose connection was refused.
         if (const auto problem = problems_.find(request.operation); problem != problems_.end())
             return Reply::failure(CallStatus::no_such_operation, problem->second);
         if (provided_ || !problems_.empty())

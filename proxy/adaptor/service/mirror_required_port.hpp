@@ -67,7 +67,7 @@ class MirrorRequiredPort final : public RequiredServicePort {
     const std::function<void()> bound_;
     const PeerNames names_;
     mutable std::shared_mutex
-        mutex_; ///< exclusive to bind, shared to serve: no call runs in a port that is being removed
+        mutex_; ///< exclusive while binding, shared while serving, so no call runs in a port that is being removed
     ProvidedServicePort* provided_ = nullptr;
     std::map<std::string, Binding, std::less<>> bindings_;        ///< by operation
     std::vector<std::pair<std::uint64_t, const Binding*>> known_; ///< the bindings by id

@@ -15,7 +15,7 @@ using control::ComponentState;
 
 namespace {
 
-/// A component that its host destroys at its end may come back with the next host: its RTC waits, in ERROR.
+/// A component that is destroyed because its host ends may return with the next host. Until then its RTC stays in ERROR.
 ComponentState shown_state(LifecycleState state, bool exited) {
     switch (state) {
     case OPROS_CS_ACTIVE:
@@ -98,7 +98,7 @@ SharedComponent::Connection SharedComponent::make_connection(const std::string& 
         set_listener(port, listener);
     };
     const std::string own_name = port.name.substr(name_.size() + 1);
-    // What a port of the same type has left in its ring is too old.
+    // Messages that an earlier port of the same type has left in the ring are too old.
     if (port.kind == link::PortKind::data_in) link.reader(port).discard();
     if (auto* output = dynamic_cast<OutputDataPortInterface*>(own))
         return std::make_unique<OutConnection<DataEnds>>(*output, port, link.writer(port));
@@ -127,7 +127,7 @@ SharedComponent::Connection SharedComponent::make_connection(const std::string& 
     return mirror;
 }
 
-/// In the thread that removes it, so that the component may do with it what it likes when that is done.
+/// Called in the thread that removes the port. When it returns, the component may destroy the port.
 void SharedComponent::portRemoved(const std::string& name, Port& port) {
     {
         const std::lock_guard lock(ports_mutex_);
@@ -170,14 +170,14 @@ control::StateReport SharedComponent::report() {
 
 std::string SharedComponent::execute(std::string_view command) {
     if (command == control::activate) {
-        // Set before: a peer that goes meanwhile must find it.
+        // Set before the transition, because peer_lost() may run during it.
         if (component_.getStatus() != OPROS_CS_ACTIVE) started_by_peer_ = true;
         return directory_.transition(name_, TRANSITION_START);
     }
     if (command == control::reset) return directory_.transition(name_, TRANSITION_RECOVER);
     started_by_peer_ = false;
     if (command == control::deactivate) return directory_.transition(name_, TRANSITION_STOP);
-    exited_ = true; // before: the change of the state is reported at once
+    exited_ = true; // set before the transition, which reports the state at once
     return directory_.transition(name_, TRANSITION_DESTROY);
 }
 

@@ -16,7 +16,7 @@ using link::Reply;
 
 namespace {
 
-// Of a state report: one more only if the peer is there and did not answer in time.
+// The most attempts to send a state report. Repeats it only if the peer is connected and has not answered in time.
 constexpr int report_attempts = 3;
 
 } // namespace
@@ -61,7 +61,7 @@ void SharedComponents::connect(link::Link& link, const SetArrivalListener& set_l
         component->watch(
             {[this, &component = *component] { link_->post([this, &component] { report(component); }); },
              ports_changed});
-    ports_changed(); // one may have been added between find() and this
+    ports_changed(); // a port may have been added since find()
 }
 
 std::optional<link::PortTable> SharedComponents::follow_ports() {

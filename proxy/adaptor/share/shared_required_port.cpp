@@ -11,7 +11,7 @@
 namespace tandem::adaptor {
 namespace {
 
-// Of a peer that tells another interface again and again: each one costs memory.
+// Limits the memory that a peer can use by sending ever new interfaces.
 constexpr std::size_t max_interfaces = 64;
 
 } // namespace

@@ -12,7 +12,7 @@ opros_any content_of(Event& event) {
 }
 
 void encode_content(const opros_any& value, wire::CdrWriter& out) {
-    opros_any scratch(value); // the public API reads none that is constant
+    opros_any scratch(value); // the public API cannot read a constant opros_any
     const auto* type = find_value_type(scratch.type());
     if (!type) throw opros::archive::archive_type_exception();
     type->encode(scratch, out);

@@ -9,7 +9,7 @@
 namespace tandem::adaptor {
 
 bool TypedEventOutPort::checkType(EventPort* target) {
-    // An input port shows an event to whatever it is to be connected with.
+    // An input port passes a sample event to the port that it is being connected with.
     if (!target->checkType(static_cast<EventPort*>(this))) return false;
     connections_.listen_if_connected();
     return true;

@@ -31,7 +31,7 @@ std::string TypedInPort::first_refusal() const {
     return first_refusal_;
 }
 
-/// By its name each time: an output port passes on whatever its component pushes as an opros_any.
+/// Looks the type up by name each time, because an output port passes on any opros_any that its component pushes.
 TypedInPort::Encoding* TypedInPort::find_encoding(opros_any& value) {
     const std::string type = value.type();
     const std::lock_guard lock(mutex_);

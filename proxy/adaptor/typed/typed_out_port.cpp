@@ -13,7 +13,7 @@ TypedOutPort::TypedOutPort(link::Port peer, link::ChannelReader& channel, SetLis
       connections_(*this, std::move(set_listener)) {}
 
 bool TypedOutPort::checkType(DataPort* target) {
-    // An input port shows a sample to whatever it is to be connected with.
+    // An input port passes a sample to the port that it is being connected with.
     if (!target->checkType(static_cast<DataPort*>(this))) return false;
     connections_.listen_if_connected();
     return true;
@@ -71,7 +71,7 @@ bool TypedOutPort::decode(const shm::Record& record) {
         wire::CdrReader in(bytes);
         connections_.type()->decode(value_, in);
         return true;
-    } catch (const std::exception& error) { // of the conversion, or of bytes that are no value
+    } catch (const std::exception& error) { // a failed conversion, or bytes that are not a valid value
         why = error.what();
     }
     channel_.count_undecodable_locked();

@@ -78,11 +78,11 @@ class TypedRequiredPort::Operation final : public RequiredMethodInterface {
     const ValueType* result_ = nullptr; ///< nullptr for void
     std::string return_type_;
     mutable std::shared_mutex
-        mutex_; ///< exclusive to connect, shared to serve: no call runs in a method that goes
+        mutex_; ///< exclusive to connect, shared to serve: no call runs in a method that is being removed
     ProvidedMethodInterface* callee_ = nullptr;
 };
 
-/// What a method tells of itself; the types of its arguments show in the first call.
+/// Checks only what a method reveals; the first call shows the types of its arguments.
 std::string TypedRequiredPort::Operation::why_refused(Method& method) {
     if (method.getArity() != getArity())
         return fmt::format("it has {} arguments, the peer's operation '{}' has {}", method.getArity(),
@@ -136,7 +136,7 @@ link::ReplyView TypedRequiredPort::Operation::invoke(std::span<const std::byte> 
     }
 }
 
-/// By the archives that every engine has: they name the type of each value, so that a method with other types reads none.
+/// Uses the archives that every engine has. They name the type of each value, so a method with other types cannot read it.
 link::ReplyView TypedRequiredPort::Operation::call(std::span<const std::byte> arguments,
                                                    wire::MessageBuffer& memory) {
     std::stringstream request, reply;

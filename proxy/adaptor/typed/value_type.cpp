@@ -21,7 +21,7 @@ ValueTypes make_types() {
     return types;
 }
 
-/// Where several have the same signature, the first one stands for it.
+/// If several types have the same signature, the first one represents it.
 const ValueTypes& value_types() {
     static const ValueTypes types =
         make_types<bool, unsigned char, char, signed char, short, unsigned short, int, unsigned int,

@@ -25,8 +25,8 @@ DirectIdentity::DirectIdentity(omniLocalIdentity& object, GenericServant& servan
 
 DirectIdentity::~DirectIdentity() { object_.loseRef(); }
 
-// An object that is deactivated, or active again, is another one: omniORB looks for it, and the servant gives the reference
-// another DirectIdentity.
+// When an object is deactivated or activated again, omniORB looks it up anew, and the servant gives the reference another
+// DirectIdentity.
 void DirectIdentity::dispatch(omniCallDescriptor& call) {
     if (object_.deactivated()) [[unlikely]] {
         auto* usual = new omniInProcessIdentity(key(), keysize());
@@ -37,7 +37,7 @@ void DirectIdentity::dispatch(omniCallDescriptor& call) {
         return omniInProcessIdentity::dispatch(call);
     GenericServant& servant = servant_;
     omni::internalLock->unlock();
-    // From here on this identity may be deleted, by another thread that finds the object deactivated.
+    // From here on, another thread that finds the object deactivated may delete this identity.
     if (servant.call_from_here(call)) [[likely]]
         return;
     omni::internalLock->lock();

@@ -23,7 +23,7 @@ class Call final : public omniCallDescriptor {
           operation_(operation), arguments_(arguments), memory_(memory) {}
 
     void marshalArguments(cdrStream& stream) override {
-        // From the beginning each time: the ORB marshals again when it repeats a request.
+        // Starts from the beginning each time, because the ORB marshals again when it repeats a request.
         wire::CdrReader reader(arguments_);
         from_cdr(operation_.request, reader, stream);
     }
@@ -31,12 +31,12 @@ class Call final : public omniCallDescriptor {
     /// `client` is null when the object is in this process; then the ORB has marshalled what the servant threw.
     void userException(cdrStream& stream, _OMNI_NS(IOP_C) * client, const char* repository_id) override {
         exception = repository_id;
-        // Of an exception that the operation does not declare, only the id is known.
+        // Only the id is known of an exception that the operation does not declare.
         if (const auto* declared = operation_.find_exception(exception)) read(declared->fields, stream);
         if (client) client->RequestCompleted(1);
     }
 
-    std::span<const std::byte> results; ///< in the memory given
+    std::span<const std::byte> results; ///< in the memory passed to the constructor
     std::string exception;
 
   private:
@@ -59,7 +59,7 @@ GenericCallFailure failure_of(Status status, const std::string& operation, std::
     return {status, fmt::format("operation '{}': {}", operation, what), std::move(exception_id)};
 }
 
-/// The servant of a call within the process has thrown it.
+/// Converts an exception that the servant has thrown in a call within the process.
 GenericCallFailure failure_of(const CORBA::UserException& exception, const std::string& name,
                               const wire::Operation& operation, wire::MessageBuffer& memory) {
     int size = 0;
@@ -79,7 +79,7 @@ Results call_by_orb(CORBA::Object_ptr object, const std::string& name, const wir
                     std::span<const std::byte> arguments, std::chrono::milliseconds timeout,
                     wire::MessageBuffer& memory, std::optional<GenericCallFailure>& failure) {
     Call call(name, operation, arguments, memory);
-    // Of this object reference, not of the process: other components choose their own bounds.
+    // The limit applies to this object reference, not to the process, because other components choose their own limits.
     omniORB::setClientCallTimeout(object, static_cast<CORBA::ULong>(timeout.count()));
     object->_PR_getobj()->_invoke(call);
     if (call.exception.empty()) return call.results;
@@ -88,7 +88,7 @@ Results call_by_orb(CORBA::Object_ptr object, const std::string& name, const wir
     return std::nullopt;
 }
 
-/// What the system exception that is being handled says.
+/// Describes the system exception that is being handled.
 GenericCallFailure describe_exception(const std::string& name) try {
     throw;
 } catch (const CORBA::BAD_OPERATION&) {

@@ -64,7 +64,7 @@ class Upcall final : public omniCallDescriptor {
     std::span<const std::byte> request_, results_; ///< in the buffers
 };
 
-/// The request of a call of this process: its head, and the arguments that the stub has.
+/// Encodes the request of a call within this process: the head, and the arguments of the stub.
 std::span<const std::byte> encode_request(omniCallDescriptor& call, const wire::Operation& operation,
                                           CallTarget& target, CallStream& stream,
                                           wire::MessageBuffer& memory) {
@@ -100,7 +100,7 @@ bool is_of_every_object(const char* name) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// Makes it the exception of the stub, which throws it.
+/// Lets the stub throw the exception, as if it had come from another process.
 void throw_to_stub(const CORBA::UserException& exception, omniCallDescriptor& call) {
     cdrMemoryStream stream;
     exception._NP_marshal(stream);
@@ -117,7 +117,7 @@ GenericServant::GenericServant(std::string repository_id, CallTarget& target)
 _CORBA_Boolean GenericServant::_dispatch(omniCallHandle& handle) {
     const char* name = handle.operation_name();
     const auto* operation = target_.find_operation(name);
-    if (!operation) { // the ORB handles _is_a and its like, and answers BAD_OPERATION to the rest
+    if (!operation) { // the ORB handles _is_a and similar operations, and answers BAD_OPERATION to all others
         if (!is_of_every_object(name)) target_.unknown_operation(name);
         return 0;
     }

@@ -22,7 +22,7 @@ class CallTarget {
     virtual ~CallTarget() = default;
     /// Returns nullptr if there is no such operation. The result must stay valid as long as the target.
     virtual const wire::Operation* find_operation(const char* name) = 0;
-    /// Called for a call of an operation that there is not, before the caller gets BAD_OPERATION.
+    /// Called when a client calls an operation that does not exist, before the client gets BAD_OPERATION.
     virtual void unknown_operation(const char*) {}
     /// Writes what must precede the arguments of a call, a multiple of 8 bytes. Writes nothing by default.
     virtual void put_head(const wire::Operation&, wire::CdrWriter&) {}

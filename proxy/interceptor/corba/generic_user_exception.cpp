@@ -7,7 +7,7 @@ namespace tandem::interceptor {
 
 GenericUserException::GenericUserException(const wire::ExceptionType& type, std::vector<std::byte> fields)
     : id_(type.id), type_(type.fields), fields_(std::move(fields)) {
-    // Tried now: once the ORB has begun to send the exception, it could not send another one.
+    // Converts the fields once in advance, because the ORB cannot replace an exception that it has begun to send.
     cdrMemoryStream scratch;
     GenericUserException::_NP_marshal(scratch);
 }

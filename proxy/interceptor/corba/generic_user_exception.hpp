@@ -15,7 +15,7 @@ namespace tandem::interceptor {
 /// this or another process, as the exception with that repository id.
 class GenericUserException final : public CORBA::UserException {
   public:
-    /// `fields` is in CDR. Throws CORBA::MARSHAL if it is no message of the type.
+    /// `fields` is in CDR. Throws CORBA::MARSHAL if `fields` is not a valid message of the type.
     GenericUserException(const wire::ExceptionType& type, std::vector<std::byte> fields);
 
     void _raise() const override { throw *this; }

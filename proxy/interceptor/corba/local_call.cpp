@@ -16,12 +16,12 @@
 namespace tandem::interceptor {
 namespace {
 
-/// A request whose arguments and results lie in memory: what is GIOP_S for one that came by a socket.
+/// A request whose arguments and results are in memory. It corresponds to GIOP_S, which serves requests from a socket.
 class LocalRequest : public omni::IOP_S {
   public:
     const char* operation_name() const override { return name_; }
     void SkipRequestBody() override {}
-    void SendException(CORBA::Exception*) override {} // they are thrown to call_local()
+    void SendException(CORBA::Exception*) override {} // exceptions are thrown to call_local()
     std::span<const std::byte> results() const { return results_; }
 
   protected:
@@ -58,7 +58,7 @@ class PlainRequest final : public LocalRequest {
     CallStream stream_;
 };
 
-/// For types that have another form in the ORB's streams.
+/// A request with types that have a different form in the ORB's streams.
 class TranscodedRequest final : public LocalRequest {
   public:
     TranscodedRequest(const char* name, const wire::Operation& operation,
@@ -103,8 +103,8 @@ class InternalLock {
     bool held_ = true;
 };
 
-/// The active object of a reference, which remembers it; with the ORB's internal lock. As GIOP_S and omniInProcessIdentity
-/// look for it.
+/// The active object of a reference, which remembers it; with the ORB's internal lock. GIOP_S and omniInProcessIdentity look
+/// for objects in the same way.
 omniLocalIdentity* find_object(omniObjRef& reference) {
     omniIdentity* identity = reference._identity();
     if (!identity->inThisAddressSpace() || identity->keysize() < 0) return nullptr;
@@ -116,7 +116,7 @@ omniLocalIdentity* find_object(omniObjRef& reference) {
     return found;
 }
 
-/// What the ORB knows a thread by. Without it the ORB would make this thread known for each call anew, which takes as long as
+/// Returns the ORB's record of this thread. Without it, the ORB would register the thread for each call, which takes as long as
 /// the call.
 omni_thread* orb_thread() {
     if (omni_thread* const known = omni_thread::self()) return known;
@@ -163,7 +163,7 @@ std::optional<std::span<const std::byte>> call_local(omniObjRef& reference, cons
     } catch (omniORB::LOCATION_FORWARD& forward) {
         const CORBA::Object_var released(forward.get_obj());
         return std::nullopt; // the ORB calls again, and follows it
-    } catch (...) {          // as the ORB does with what is no CORBA exception
+    } catch (...) {          // the ORB converts other exceptions in the same way
         throw CORBA::UNKNOWN(0, CORBA::COMPLETED_MAYBE);
     }
 }

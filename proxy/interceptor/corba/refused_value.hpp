@@ -8,7 +8,7 @@
 
 namespace tandem::interceptor {
 
-/// A value that its type allows and that cannot cross, with the reason. For callers it is CORBA::MARSHAL.
+/// A value that its type allows and that cannot cross, with the reason. Callers get CORBA::MARSHAL.
 class RefusedValue final : public CORBA::MARSHAL {
   public:
     explicit RefusedValue(std::string reason, CORBA::CompletionStatus completed = CORBA::COMPLETED_NO)

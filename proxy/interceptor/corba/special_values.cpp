@@ -22,7 +22,7 @@ using wire::Type;
 
 namespace {
 
-// An any may hold an any. Another process decides how deep.
+// An any may hold an any. Another process determines the depth.
 constexpr int max_nested_anys = 8;
 thread_local int nested_anys = 0;
 struct AnyDepth {
@@ -103,7 +103,7 @@ void any_from_cdr(wire::CdrReader& from, cdrStream& to) {
                                        signature.substr(0, 100), reader.remaining()));
 }
 
-/// A reference crosses as the text of its IOR, an empty one for nil: whoever gets it may keep it and give it back.
+/// A reference crosses as the text of its IOR, or as an empty text for nil. The receiver may store it and send it back.
 void object_to_cdr(cdrStream& from, wire::CdrWriter& to) {
     const CORBA::Object_var object = CORBA::Object::_unmarshalObjRef(from);
     if (CORBA::is_nil(object)) return to.put_string("");

@@ -9,7 +9,7 @@
 #include <cstdint>
 
 // Values that have different forms in the ORB's streams and in the link's CDR, for transcoder.cpp. All functions throw
-// CORBA::SystemException if the bytes are no such value.
+// CORBA::SystemException if the bytes are not a valid value.
 namespace tandem::interceptor {
 
 [[noreturn]] void throw_marshal();

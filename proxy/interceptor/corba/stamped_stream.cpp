@@ -15,7 +15,7 @@ std::size_t distance(const void* from, const void* to) {
     return static_cast<std::size_t>(byte_at(to) - byte_at(from));
 }
 
-// How strings are transmitted: as a memory stream learns it from the ORB. It stays the same as long as the process lives.
+// Returns a stream with the code sets of strings, which a memory stream gets from the ORB. They never change in a process.
 const cdrStream& stream_with_code_sets() {
     static const cdrMemoryStream stream;
     return stream;

@@ -17,9 +17,9 @@ namespace {
 using wire::Kind;
 using wire::Type;
 
-/// The bytes that a value of `type` takes at least: with it, an element count that the message cannot hold is
-/// refused before anything is allocated for it. Strings and sequences begin with a count of 4 bytes; of structures
-/// and arrays only that they are not empty is used, which is enough to bound the count.
+/// Returns the minimum number of bytes of a value of `type`. With it, an element count that the message cannot hold is refused
+/// before memory is allocated. Strings and sequences begin with a count of 4 bytes. For structures and arrays the result is
+/// only a lower bound above 0, which suffices to limit the count.
 std::size_t min_encoded_bytes(const Type& type) {
     switch (type.kind) {
     case Kind::string:

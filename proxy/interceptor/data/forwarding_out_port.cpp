@@ -51,20 +51,20 @@ void ForwardingOutPort::send() {
             if (status != RTC::DataPortStatus::PORT_OK) report_not_taken(status);
         }
     }
-    // Without the mutex, which disconnecting locks.
+    // Called without the mutex, because disconnecting locks it.
     if (!lost.empty()) end_lost_connections(lost);
 }
 
 void ForwardingOutPort::report_not_taken(RTC::DataPortStatus status) {
     buffer_.count_discarded();
     if (status != RTC::DataPortStatus::PORT_ERROR &&
-        not_taken_.should_log()) // a listener that threw is named already
+        not_taken_.should_log()) // the log already names a listener that threw
         log::warn("port '{}': the RTC's port did not take a message ({}), {} lost so far", getName(),
                   RTC::toString(status), not_taken_.count());
 }
 
-/// Listeners of the RTC's InPort run in it and may throw anything, which must not end the host. OpenRTM-aist's CORBA
-/// runtime takes the exception to the sender, who knows no more of it than that.
+/// Listeners of the RTC's InPort run in it and may throw anything, which must not end the host. In OpenRTM-aist, CORBA returns
+/// the exception to the sender without details.
 RTC::DataPortStatus ForwardingOutPort::write_to(RTC::OutPortConnector& connector) {
     std::string thrown;
     try {

@@ -31,8 +31,8 @@ std::map<std::string, LinkChannel>& channels() {
     return channels;
 }
 
-/// With channels_mutex held. A key is LINK/PORT#NUMBER, the number being that of the port's type; LINK/PORT is the newest type's,
-/// for senders in other processes. nullptr: it is not registered.
+/// With channels_mutex held. A key is LINK/PORT#NUMBER with the number of the port's type, or LINK/PORT for the newest type,
+/// which senders in other processes use. Returns nullptr if the key is not registered.
 const LinkChannel* find_channel(const std::string& key) {
     const auto& all = channels();
     if (const auto found = all.find(key); found != all.end()) return &found->second;
@@ -104,7 +104,7 @@ BufferStatus LinkBuffer::write(const RTC::ByteData& message, std::chrono::nanose
     }
     try {
         return write_body(channel_.transcoded ? transcode_to_link(bytes) : bytes, stamp);
-    } catch (const CORBA::SystemException& error) { // a value that the type allows and the link does not
+    } catch (const CORBA::SystemException& error) { // the type allows this value, but the link does not
         channel_.writer->refuse(reason_of(error));
         return BufferStatus::BUFFER_ERROR;
     }

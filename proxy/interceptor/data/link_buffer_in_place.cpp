@@ -35,7 +35,8 @@ BufferStatus LinkBuffer::writeInPlace(const RTC::Marshal& marshal) {
     return rt::rehearsing() ? BufferStatus::OK : write_long(marshal);
 }
 
-// Marshals once, as most messages fit into a record. Nothing: this one does not, or the value cannot be marshalled.
+// Marshals once, because most messages fit into a record. Returns nothing if this one does not fit or the value cannot be
+// marshalled.
 std::optional<BufferStatus> LinkBuffer::write_short(const RTC::Marshal& marshal) {
     std::uint64_t stamp = 0;
     bool fits = true;
@@ -114,8 +115,8 @@ BufferStatus LinkBuffer::read_copy(RTC::ByteData& message) {
     return rt::rehearsing() ? BufferStatus::EMPTY : read(message, {});
 }
 
-/// After a first look that has found nothing: the last message again, or one that comes as long as the policy asks. As within a
-/// host, the variable of a long message stays as the component has left it.
+/// Called when the ring is empty. Depending on the policy, returns the last message again, or waits for a new one. As within a
+/// host, a long message that is returned again leaves the component's variable unchanged.
 BufferStatus LinkBuffer::read_nothing_new(RTC::Unmarshal& reader) {
     if (rt::rehearsing()) return BufferStatus::EMPTY;
     if (!readback_)

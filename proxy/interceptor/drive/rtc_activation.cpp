@@ -13,7 +13,7 @@ RtcActivation::RtcActivation(RTC::RTObject_impl& owner, const link::Link& link, 
 std::string RtcActivation::activate() {
     // Set first, so that peer_lost() sees it when the peer dies meanwhile.
     activated_by_link_ = true;
-    // The owner before the RTCs, which may send and call through its mirrors from their onActivated on.
+    // The owner is activated first, because the RTCs may use its mirrors in their onActivated.
     std::string error = owner_driver_.activate();
     if (error.empty()) error = rtcs_.activate();
     activated_by_link_ = error.empty(); // also if peer_lost() came before the RTCs were active

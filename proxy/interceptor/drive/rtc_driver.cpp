@@ -93,7 +93,7 @@ std::string RtcDriver::deactivate() {
     return error;
 }
 
-/// In the thread of the execution context, in which the transition ends after this.
+/// Called in the thread of the execution context, before the transition ends.
 void RtcDriver::on_activated() {
     events_.activated();
     if (!thread_) return;
@@ -117,11 +117,11 @@ void RtcDriver::on_deactivated() {
 }
 
 void RtcDriver::end_late_deactivation() {
-    const std::string error = transitions_->deactivate(); // waits for the end of that
+    const std::string error = transitions_->deactivate(); // waits until onDeactivated has returned
     bool wanted = false;
     {
         const std::lock_guard lock(late_mutex_);
-        if (!late_) return; // a later deactivation has seen its end
+        if (!late_) return; // a later deactivation has already handled it
         late_ = false;
         wanted = std::exchange(wanted_, false);
     }

@@ -54,7 +54,7 @@ std::string RtcGroup::activate() {
             const bool activated = error.empty() && !was_active;
             return Outcome{std::move(error), activated};
         }));
-        if (has_failed(begun.back())) break; // those after it need not be taken back
+        if (has_failed(begun.back())) break; // the RTCs after it were not activated
     }
     std::string error = first_error(begun);
     if (error.empty()) return error;
@@ -63,7 +63,7 @@ std::string RtcGroup::activate() {
         if (each->outcome.get().activated)
             taken_back.push_back(
                 begin(*each->member, [](DrivenRtc& rtc) { return Outcome{rtc.deactivate()}; }));
-    first_error(taken_back); // the error that led to this one is what the user needs
+    first_error(taken_back); // the user needs the original error, not this one
     return error;
 }
 

@@ -135,7 +135,7 @@ std::string RtcTransitions::wait_for_end(const Transition& transition) const {
                                        : running);
 }
 
-// A manager of OpenRTM-aist does not tell them.
+// Only rtm_host reports callbacks; a manager of OpenRTM-aist does not.
 RtcTransitions::Callbacks RtcTransitions::callbacks() const {
     const std::string instance = name_.substr(name_.rfind('/') + 1);
     try {

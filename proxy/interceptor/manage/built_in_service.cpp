@@ -17,7 +17,8 @@ namespace {
 
 constexpr std::size_t min_string_bytes = 5; // of a string in CDR: its length and the final NUL
 
-/// The arguments that the signature describes; nothing when the bytes, which come from another process, are others.
+/// Decodes the arguments that the signature describes. Returns nothing if the bytes, which come from another process, do not
+/// match it.
 std::optional<BuiltInService::Strings> decode(std::string_view arguments, std::span<const std::byte> bytes) {
     wire::CdrReader in(bytes);
     BuiltInService::Strings strings;

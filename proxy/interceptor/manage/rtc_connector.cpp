@@ -11,7 +11,8 @@ namespace {
 
 using Strings = BuiltInService::Strings;
 
-/// `subscription_type=new` as dataport.subscription_type; a key with a dot stays as it is. Begins behind the ports.
+/// Returns the properties that follow the two ports. A key without a dot, such as `subscription_type`, gets the prefix
+/// `dataport.`.
 coil::Properties properties_of(const Strings& arguments) {
     coil::Properties properties;
     for (std::size_t i = 2; i < arguments.size(); ++i) {

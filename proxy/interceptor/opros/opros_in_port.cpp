@@ -22,7 +22,7 @@ OprosInPort::OprosInPort(const char* name, const char* data_type, std::string ch
     m_singlebuffer = false; // each connection has the LinkBuffer that publishInterfaces() names
 }
 
-/// What comes must go to the link in somebody's thread: the sender's.
+/// The sender's thread passes arriving messages on to the link.
 void OprosInPort::init(coil::Properties& properties) {
     RTC::InPortBase::init(properties);
     const std::lock_guard lock(m_profile_mutex);

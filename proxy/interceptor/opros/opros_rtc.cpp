@@ -28,7 +28,7 @@ class SourceScope {
     SourceScope& operator=(const SourceScope&) = delete;
 };
 
-/// In an argument of a component these separate it from others; no name of a component needs them.
+/// Returns whether the name has none of the characters that separate arguments of a component.
 bool is_plain(const std::string& name) {
     return !name.empty() && name.find_first_of("?&=,:/ \t\n") == std::string::npos;
 }
@@ -93,12 +93,13 @@ void OprosRtc::leave(RTC::Manager& manager) {
     if (!finalized_) engine::remove_component(manager, *this);
 }
 
-/// What is to be told the component: not when this RTC only follows it, ends with its own host, or nobody is there.
+/// Returns whether a transition must be sent to the component: not if this RTC only follows it, if this host is ending, or if
+/// the link is down.
 bool OprosRtc::must_tell_component() const {
     return !leaving_ && !is_following() && !engine::is_terminating() && source_.link->is_up();
 }
 
-/// One cycle is enough for all messages that come before it. [notifier-thread]
+/// One cycle handles all messages that arrived before it. [notifier-thread]
 void OprosRtc::wake() {
     if constexpr (!engine::has_immediate_transitions) {
         // A tick may be forgotten, or wait for a period.
@@ -142,7 +143,7 @@ void OprosRtc::peer_lost() {
 
 RTC::LifeCycleState OprosRtc::state() const { return context_->getComponentState(m_objref.in()); }
 
-/// Goes from ACTIVE to ERROR: by a cycle that fails and one that aborts.
+/// Goes from ACTIVE to ERROR in two cycles: the first fails, the second aborts.
 void OprosRtc::fail() {
     constexpr auto pause = std::chrono::milliseconds(5);
     for (int tick = 0; !engine::has_immediate_transitions && tick < 100 && state() == RTC::ACTIVE_STATE;
@@ -205,7 +206,7 @@ RTC::ReturnCode_t OprosRtc::onActivated(RTC::UniqueId) {
     if (!is_following() && !command(control::activate, control::activation_timeout)) return RTC::RTC_ERROR;
     if (fault_) return RTC::RTC_ERROR;
     wake_pending_ = true;
-    context_->tick(); // for what has come before the activation
+    context_->tick(); // for messages that arrived before the activation
     return RTC::RTC_OK;
 }
 

@@ -19,7 +19,7 @@ using link::CallStatus;
 
 namespace {
 
-/// A listener to connections that says that there was a change.
+/// A listener that reports new and ended connections.
 class ChangeListener final : public RTC::ConnectorListener {
   public:
     explicit ChangeListener(std::function<void()> changed) : changed_(std::move(changed)) {}
@@ -72,7 +72,7 @@ void OprosRtc::hide_ports_but(const std::vector<link::Port>& ports) {
     }
 }
 
-/// False, after a line in the log, if it cannot be shown.
+/// Returns false, after a line in the log, if the port cannot be shown.
 bool OprosRtc::add_port(const link::Port& port) {
     const auto is_it = [&](const auto& each) { return each.source.is_same(port); };
     const auto known = std::find_if(shown_ports_.begin(), shown_ports_.end(), is_it);
@@ -132,7 +132,7 @@ void OprosRtc::set_ports(const std::vector<link::Port>& ports) {
         log::info("{}: port '{}' was added to the OPRoS component and is shown", getInstanceName(),
                   port.name);
     }
-    // Service ports can be called from the activation on, which may be over.
+    // An activation makes service ports callable. It may be over already.
     if (added && state() == RTC::ACTIVE_STATE) m_portAdmin.activatePorts();
     following.unlock(); // the end of this RTC does not wait for the peer
     if (added) send_interfaces();
@@ -143,7 +143,7 @@ bool OprosRtc::add_provided_port(const link::Port& port, const std::string& name
     try {
         service.target = std::make_unique<MirrorRequiredPort>(port, *source_.link, source_.call_timeout);
         service.target->bind({port.name, port.operations}); // the component that provides it is there
-    } catch (const wire::SignatureError& error) {           // it came from another process
+    } catch (const wire::SignatureError& error) {           // the signature came from another process
         log::warn("{}: port '{}' is not shown: {}", getInstanceName(), name, error.what());
         return false;
     }
@@ -224,7 +224,7 @@ std::vector<std::string> OprosRtc::listen() {
     for (std::size_t i = 0; auto* output = output_at(i); ++i) {
         const bool listens = output->port->is_connected();
         if (listens != output->listens) {
-            if (listens) output->port->discard(); // what came before is of no interest to the first receiver
+            if (listens) output->port->discard(); // the first receiver gets no earlier messages
             source_.link->set_arrival_listener(source_.link->reader(output->source),
                                                listens ? std::function<void()>([this] { wake(); }) : nullptr);
             output->listens = listens;

@@ -15,13 +15,13 @@ using control::ComponentState;
 
 namespace {
 
-// An RTC that somebody else is just activating gets its state when that is done.
+// An RTC that is being activated by another client gets its state after that.
 constexpr int follow_attempts = 50;
 constexpr std::chrono::milliseconds follow_pause{10};
 
 std::vector<link::Port> ports_of(const link::PortTable& table, const std::string& component) {
     std::vector<link::Port> ports;
-    // The names come from another process: what does not begin with the component's name is not of it.
+    // The names come from another process. A port whose name does not begin with the component's name is ignored.
     for (const auto& port : table.ports)
         if (port.component == component && port.name.starts_with(component + ".")) ports.push_back(port);
     return ports;
@@ -105,7 +105,7 @@ void OprosRtcs::peer_connected() {
         remove(name);
     }
     update_ports();
-    // Settings that were made here hold for the peer that has come.
+    // Settings that were made on this side also apply to the new peer.
     link::PortTable table;
     {
         const std::lock_guard lock(mutex_);
@@ -116,7 +116,7 @@ void OprosRtcs::peer_connected() {
             rtc->send_configuration(&component.properties);
             rtc->send_interfaces();
         }
-    // The state that makes an RTC may have come before this task, and found the one that is removed now.
+    // The report that creates an RTC may have arrived before this task and found the RTC that this task has removed.
     for (const auto& name : changed) follow(name);
 }
 
@@ -130,7 +130,7 @@ void OprosRtcs::peer_lost() {
     for (const auto& entry : all) entry->rtc->follow();
 }
 
-/// nullptr also for one that is on its way out. The result is valid in the task thread until it removes it.
+/// Returns nullptr also for an RTC that is exiting. The result is valid in the task thread until this thread removes the RTC.
 OprosRtc* OprosRtcs::find(const std::string& name) {
     const std::lock_guard lock(mutex_);
     const auto found = rtcs_.find(name);
@@ -143,7 +143,7 @@ void OprosRtcs::follow(const std::string& name) {
     {
         const std::lock_guard lock(mutex_);
         const auto found = reports_.find(name);
-        if (found == reports_.end()) return; // no report of this peer, or another one has come meanwhile
+        if (found == reports_.end()) return; // this peer has sent no report, or another peer has come
         report = found->second;
     }
     if (report.state == ComponentState::destroyed) return remove(name);

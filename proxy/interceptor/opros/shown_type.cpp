@@ -17,7 +17,7 @@
 namespace tandem::interceptor {
 namespace {
 
-// The types that travel by themselves, which RTCs have ports of.
+// OpenRTM-aist's data types that RTCs use as types of ports.
 constexpr const char* standard_types[] = {"TimedShort",      "TimedLong",         "TimedUShort",
                                           "TimedULong",      "TimedFloat",        "TimedDouble",
                                           "TimedChar",       "TimedBoolean",      "TimedOctet",
@@ -37,7 +37,8 @@ constexpr const char* standard_types[] = {"TimedShort",      "TimedLong",       
                                           "Path3D",          "PointCloud",        "PanTiltAngles",
                                           "RangeData",       "IntensityData"};
 
-/// The signature, and of a string and a structure behind it the string and that structure's members: the same bytes.
+/// Returns the signatures with the same bytes: the given one and, for a string followed by a structure, the string followed by
+/// the structure's members.
 std::vector<std::string> equal_signatures(const std::string& signature) {
     std::vector<std::string> signatures{wire::to_signature(wire::parse_signature(signature))};
     const auto type = wire::parse_signature(signature);
@@ -48,7 +49,7 @@ std::vector<std::string> equal_signatures(const std::string& signature) {
     return signatures;
 }
 
-/// Whether values of one of the signatures are values of the known type, whose time is added.
+/// Returns whether one of the signatures fits the known type; its leading time is added.
 bool fits(const std::vector<std::string>& signatures, const std::string& id) {
     const std::string known = engine::data_type_signature(id);
     if (known.empty() || known.find('?') != std::string::npos) return false;

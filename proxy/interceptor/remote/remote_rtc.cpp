@@ -49,7 +49,7 @@ std::string instance_of(const std::string& name) {
     return instance;
 }
 
-/// One life of the RTC.
+/// The RTC from one start to its end.
 struct RemoteRtc::Found {
     Found(const std::string& its_name, RTC::RTObject_ptr reference, RTC::ExecutionContext_ptr own,
           std::chrono::milliseconds timeout)
@@ -107,7 +107,7 @@ std::shared_ptr<RemoteRtc::Found> RemoteRtc::current() const {
 
 RTC::PortServiceList RemoteRtc::find(std::string& reason) {
     reason = search();
-    last_line_ = reason; // which the caller says
+    last_line_ = reason; // the caller logs it
     const auto rtc = current();
     return rtc ? rtc->ports : RTC::PortServiceList();
 }
@@ -124,7 +124,7 @@ void RemoteRtc::resume() {
     wake_.notify_all();
 }
 
-/// Returns why it is not there, or an empty string.
+/// Returns why the RTC is not available, or an empty string.
 std::string RemoteRtc::search() {
     std::string reason;
     const RTC::RTCList list = engine::find_by_name(manager_, with_context(name_), reason, call_timeout_ms);
@@ -138,7 +138,7 @@ std::string RemoteRtc::search() {
         now->ports = now->get_ports();
         now->last_state = now->state();
         const std::lock_guard lock(mutex_);
-        // Another life of it has not been activated yet; the same one may have been out of reach only.
+        // A restarted RTC has not been activated yet. The same RTC may only have been unreachable.
         if (CORBA::is_nil(last_.in()) || !last_->_is_equivalent(now->rtc.in())) is_driven_ = false;
         last_ = now->rtc;
         found_ = now;
@@ -164,7 +164,7 @@ void RemoteRtc::run() {
         }
         try {
             look();
-        } catch (const CORBA::Exception& error) { // a port that went while it was asked
+        } catch (const CORBA::Exception& error) { // a port that was removed during the query
             say_once(fmt::format("{}: it answers with CORBA exception {}", name_, error._name()));
         } catch (const std::runtime_error& error) {
             say_once(error.what());
@@ -209,7 +209,7 @@ void RemoteRtc::look_at(Found& rtc) {
             rtc.ports = ports;
         }
     } catch (const CORBA::TIMEOUT&) {
-        // Stopped, in a debugger, or on a machine behind a bad network: late, not dead.
+        // The process may be stopped, in a debugger, or behind a bad network. It is late, not dead.
         return say_once(fmt::format("RTC {} does not answer; its ports stay connected", name_));
     } catch (const CORBA::OBJECT_NOT_EXIST&) {
         return lose("has exited");

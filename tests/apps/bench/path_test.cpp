@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The length of the roads in instructions: counted right, the same each time, and not longer than today.
+// The length of each path in instructions: counted correctly, equal in each run, and below an upper bound.
 #include "apps/bench/harness/forked_children.hpp"
 #include "apps/bench/path/path_recorder.hpp"
 #include "apps/bench/report/report.hpp"
@@ -110,7 +110,7 @@ TEST_CASE("A message takes the same instructions in each run") {
     }
 }
 
-// The bounds are those of the optimized build: other presets have more code on each road.
+// The bounds apply to the optimized build; other presets have more instructions on each path.
 #ifdef TANDEM_RELEASE
 
 namespace {
@@ -120,8 +120,8 @@ struct Bound {
     std::uint32_t instructions, code_lines, code_pages, allocations, locked;
 };
 
-// Each bound is 5 to 10 % above what the side takes. A worker's answer takes one locked instruction more in some runs, and up to
-// 80 instructions.
+// Each bound is 5 to 10 % above the count of that side. A worker's answer takes one locked instruction more in some runs, and
+// up to 80 instructions.
 constexpr Bound bounds[] = {
     {"tandem/path/opros-to-rtm/48/sender", 300, 30, 9, 0, 0},
     {"tandem/path/opros-to-rtm/48/receiver", 385, 38, 8, 0, 1},
@@ -155,7 +155,7 @@ TEST_CASE("No side of a road has become longer") {
             CHECK(row.path_counts->code_pages <= bound.code_pages);
             CHECK(row.path_counts->allocations <= bound.allocations);
             if (tandem::test::mutexes_have_owners()) CHECK(row.path_counts->locked <= bound.locked);
-            // Only a call has somebody to wake.
+            // Only a call wakes a thread.
             CHECK(row.path_counts->system_calls <= (row.bytes == sizeof(double) ? 1 : 0));
         }
     if (!rows.empty()) CHECK(rows.size() == std::size(bounds));

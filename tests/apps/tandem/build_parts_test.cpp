@@ -50,7 +50,7 @@ std::string text_of(const fs::path& file) {
     return text.str();
 }
 
-// A component beside an older version of itself, as folders of OPRoS components are.
+// A component beside an older version of itself, as in many folders of OPRoS components.
 void old_component(const Folder& folder) {
     folder.write("Old/Old.cpp", entry);
     folder.write("Old/OldBackup.cpp", entry);
@@ -105,7 +105,7 @@ TEST_CASE("several sources that define the entry point are named, and --exclude 
     CHECK_THAT(refused(old, {{"Missing.cpp"}, {}}), Catch::Contains("--source Missing.cpp: no such file"));
     CHECK_THAT(refused(old, {{}, {"Missing.cpp"}}),
                Catch::Contains("--exclude Missing.cpp: no source file in"));
-    // A list that cannot be read without running the project file decides nothing.
+    // A list that only running the project file would reveal is ignored.
     folder.write("Old/Makefile", "SRCS = $(wildcard *.cpp)\n");
     CHECK_THAT(refused(old), Catch::Contains("each define getComponent()"));
 }

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A machine of files in a temporary folder, of which this user's processes own everything.
+/// A machine made of files in a temporary folder. Processes of this user own everything on it.
 class FakeMachine {
   public:
     FakeMachine() {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// No name of a file or folder is a command: the programs run with names that a shell, CMake, make, gnuplot or a terminal
-// would act on. Each run works, or fails with one line.
+// No name of a file or folder is executed as a command: the programs run with names that a shell, CMake, make, gnuplot or a
+// terminal would interpret. Each run works, or fails with one line.
 #include "host/process/run_command.hpp"
 #include "tests/host/opros/engine/folder.hpp"
 #include "tests/support/nasty_names.hpp"
@@ -24,7 +24,7 @@ const char* const profile = "<component_profile><name>Part</name><execution_envi
                             "</library_name></execution_environment><execution_semantics><type>passive</type>"
                             "</execution_semantics></component_profile>\n";
 
-/// A current folder for commands, with files and folders of one name.
+/// A working folder for commands, with files and folders that have the given name.
 struct NameFolder : Folder {
     CommandResult run(const Command& command) const {
         return tandem::process::run_command(command, {.folder = path().string()});

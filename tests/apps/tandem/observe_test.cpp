@@ -212,7 +212,7 @@ TEST_CASE("a type is declared in IDL") {
           "struct TimedDoubleSeq {\n  TimedDoubleSeq_tm tm;\n  sequence<double> data;\n};\n};\n");
     CHECK(idl_of("is", "std::vector<Pose>") ==
           "struct std__vector_Pose_ {\n  long member_0;\n  string member_1;\n};\n");
-    // Keywords, elements that are sequences, what IDL readers have not.
+    // Keywords, sequences as elements, and types that IDL readers lack.
     CHECK(idl_of("{in}aad{wide}w{kind}e#3{a}[4]c", "T") ==
           "struct T_in {\n  sequence<double> value;\n};\nstruct T {\n  sequence<T_in> _in;\n  "
           "sequence<octet> wide;\n"

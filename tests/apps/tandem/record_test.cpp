@@ -240,7 +240,7 @@ TEST_CASE("a recorder killed at random moments leaves a readable file, and nothi
         with_messages += kill_recording(link, file.path, after, second) > 0 ? 1 : 0;
         std::filesystem::remove(file.path);
     }
-    // However slow the machine is: one that lives long enough has written.
+    // A recorder that lives long enough has written messages, however slow the machine is.
     for (int more = 1; with_messages == 0 && more <= 10; ++more)
         with_messages += kill_recording(link, file.path, std::chrono::seconds(more), second) > 0 ? 1 : 0;
     CHECK(with_messages > 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The times of a recording: in order whatever happens to the wall clock, and of one clock.
+// The times of a recording come from one clock and are in order, whatever happens to the wall clock.
 #include "apps/tandem/mcap/reader.hpp"
 #include "apps/tandem/record/cdr_message.hpp"
 #include "apps/tandem/record/recorder.hpp"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The begin and the end of recordings: they destroy nothing, and each orderly or disorderly end keeps the
-// recorded messages.
+// Recordings do not destroy files when they begin, and keep the recorded messages however they end.
 #include "apps/tandem/mcap/check_file.hpp"
 #include "apps/tandem/mcap/reader.hpp"
 #include "apps/tandem/record/lockstep_recording.hpp"

@@ -89,7 +89,7 @@ TEST_CASE("a changed gain is found, with tick and member") {
     const auto result = replay_in_place_of(folder, "opros_host", {"--check"});
     INFO(result.output << result.errors);
     CHECK(result.exit_code == 1);
-    // Driving straight the ratio is right whatever its gain is: the first curve shows it.
+    // On a straight line the ratio is correct with any gain, so only the first curve shows a difference.
     const auto line = result.output.find("first difference: tick ");
     REQUIRE(line != std::string::npos);
     const std::string rest = result.output.substr(line + std::string("first difference: tick ").size());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A host of the mixed run is killed in mid-run, or its segment is truncated. Times are reported by the run;
-// here they only have to be there, and of a size that a busy machine does not exceed.
+// A host of the mixed run is killed in mid-run, or its segment is truncated. The run reports the times; this test only checks
+// that they exist and are plausible for a busy machine.
 #include <catch2/catch.hpp>
 
 #include <dirent.h>
@@ -36,7 +36,7 @@ class MixedRun {
         process_.emplace(command, tandem::process::ChildOptions{-1, output_.get(), errors_.get()});
     }
 
-    /// Kills the host once the chair drives. The pid is the one the run printed: no other process is meant.
+    /// Kills the host once the chair drives. Kills only the pid that the run has printed.
     void kill_when_driving(const std::string& host) {
         wait_until_driving();
         const std::string text = file_content(dir_ / "output");

@@ -132,7 +132,7 @@ TEST_CASE("a process with a full queue of connections is alive, and does not ans
         CHECK((error == 0 || error == EAGAIN));
     }
     CHECK(send_request(socket, "next", 50ms) == std::nullopt);
-    clients.clear(); // makes no room: the connections wait to be accepted
+    clients.clear(); // frees no place: the connections wait to be accepted
     CHECK(send_request(socket, "next", 50ms) == std::nullopt);
     ::unlink(socket.c_str());
 }

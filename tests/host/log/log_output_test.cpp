@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The log of a program that continues in spite of disks that are full for a while and readers that stop
-// reading.
+// The log of a program that keeps running although its disk is full for a while or its reader stops reading.
 #include "host/log/log_output.hpp"
 
 #include "host/log/log.hpp"

@@ -15,8 +15,7 @@ using tandem::options::RealTimeOptions;
 
 namespace {
 
-/// Runs body() in a process of its own, because what apply() requests lasts as long as the process. True:
-/// body() returned true.
+/// Runs body() in a separate process, because the effects of apply() last as long as the process. Returns the result of body().
 bool in_child_process(const std::function<bool()>& body) {
     const pid_t child = fork();
     if (child == 0) _exit(body() ? 0 : 1);

@@ -60,7 +60,8 @@ TEST_CASE("load and start and stop and unload leave memory and descriptors as th
     const auto open = descriptors();
     [[maybe_unused]] const auto maps = mappings();
     const int count = tandem::test::stress(1000);
-    // Bytes that 17 lost per round would exceed. What threads keep for themselves may, too, but not each time.
+    // A limit in bytes that a leak of 17 bytes per round would exceed. Memory that threads keep may exceed it as well, but not
+    // in every attempt.
     constexpr long lost = 16384;
     long grown = lost + 1;
     for (int attempt = 0; attempt < 3 && grown > lost; ++attempt) {

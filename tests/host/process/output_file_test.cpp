@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a program writes a file although another user may have put something else at its name.
+// Opens files for writing in folders where another user may have placed something else under the name.
 #include "host/process/output_file.hpp"
 
 #include <catch2/catch.hpp>

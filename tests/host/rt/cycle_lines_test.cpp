@@ -21,7 +21,7 @@ using tandem::rt::SharedTick;
 
 namespace {
 
-/// Returns how many instructions a process executes that does the work, or none if it must not be traced.
+/// Returns how many instructions a process executes for the work; nothing if it must not be traced.
 template <class Work>
 std::optional<long> count_instructions(const Work& work) {
     const pid_t child = fork();

@@ -86,7 +86,7 @@ class HostProcess {
     bool wait_for_error(const std::string& text) {
         return wait_for_text(errors, text, std::chrono::seconds(30));
     }
-    /// From now on, or no longer, leaves what comes on standard error in the pipe, which the process may fill.
+    /// Stops (or resumes) reading standard error, so that the process may fill the pipe.
     void stall_errors(bool stalled) { err_open_ = !stalled; }
     void send_signal(int signal) { kill(pid_, signal); }
     /// Sends SIGSTOP and waits until all threads have stopped: it answers no call then. SIGCONT continues it.
@@ -108,7 +108,7 @@ class HostProcess {
         const std::filesystem::directory_iterator all("/proc/" + std::to_string(pid_) + "/task");
         return static_cast<std::size_t>(std::distance(begin(all), end(all)));
     }
-    /// Waits until no thread of the process runs or wants a processor: it has finished what it was asked for.
+    /// Waits until no thread of the process runs or waits for a processor, so that it has finished its work.
     bool wait_until_idle() const {
         for (int i = 0; i < 10000; ++i) {
             bool busy = false;

@@ -12,7 +12,7 @@ namespace {
 using namespace testing;
 
 /// OpenRTM-aist 2.x releases each reference that get_components_by_name() returns once too often: after ten
-/// calls its process ends. This one ends at the first.
+/// calls its process ends. This process ends at the first call.
 class FragileManager : public RTM::ManagerServant {
   public:
     using ManagerServant::ManagerServant;
@@ -36,7 +36,7 @@ class FragileHost : public Counter {
     PortableServer::Servant_var<FragileManager> servant_;
 };
 
-/// A component that does not tell, by the profile of a context of its own, that its host is Tandem's.
+/// A component whose execution context has a profile that does not show that its host is Tandem's.
 template <class Base>
 class InForeignHost : public Base {
   public:

@@ -55,7 +55,7 @@ class Thrower : public RTC::DataFlowComponentBase {
     }
 };
 
-/// Removes component Reporter0 while it is finalized itself.
+/// Removes component Reporter0 while this component is being finalized.
 class Remover : public RTC::DataFlowComponentBase {
   public:
     using DataFlowComponentBase::DataFlowComponentBase;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Both ends of a relay, as an OPRoS component and an RTC have them. The end with the property `work` uses the other one, in
-// threads of its own, and prints what came of it:
+// Both ends of a relay, as an OPRoS component and an RTC have them. The end with the property `work` calls the other end, in
+// its own threads, and prints the results:
 //   long     echoes of up to nearly 64 MiB                callers  64 threads that call at once
 //   deep     two chains of 16 nested calls at once         notes    2000 calls without a reply at once
 #pragma once

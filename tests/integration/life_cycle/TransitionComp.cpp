@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Does to components of its application what the lines of a file say (`1 stop Motor`), and prints what became of it. The
+// Makes the transitions of components of its application that a file lists (`1 stop Motor`), and prints the results. The
 // property `commands` names the file, to which the test appends.
 #include <ComponentDirectory.h>
 #include <OPRoSInclude.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The work of a crane: a step every 10 ms, until it is done or nobody wants it any more.
+// The work of a crane: a step every 10 ms, until it is done or the call is cancelled.
 #pragma once
 #include <TandemCall.h>
 

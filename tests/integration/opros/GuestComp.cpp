@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Adds event ports and service ports when its property `stage` becomes `add`, and removes them at `remove`. Raises alarms,
-// knocks and waits, asks a dictionary, provides one, and says what comes.
+// Adds event ports and service ports when its property `stage` becomes `add`, and removes them at `remove`. Sends alarms and
+// knocks, calls a dictionary, provides one, and prints what it receives.
 #include "simple_component.h"
 
 #include "DictionaryProvided.h"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sends the twenty numbers around the greatest one of 16 bits, one in each cycle, and prints what it
-// receives.
+// Sends the twenty numbers around the largest 16-bit number, one in each cycle, and prints what it receives.
 #include "simple_component.h"
 
 #include <iostream>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers what it sends by `back`; says what it gets, and where a number of `steady` is missing. With the first value of
-// `late` it adds a port `lateOut`, by which it sends numbers from 100000 on, and a port `lateIn`. Its property `stage`, when it
-// becomes `double`, makes these two ports of doubles by the same names, and when it becomes `int` whole numbers again.
+// Sends numbered messages by `back`, and prints which messages it receives and which numbers of `steady` are missing. With the
+// first value of `late` it adds a port `lateOut`, by which it sends numbers from 100000 on, and a port `lateIn`. Its property
+// `stage`, when it becomes `double`, makes these two ports of doubles by the same names, and when it becomes `int` whole
+// numbers again.
 #include "simple_component.h"
 
 #include <iostream>

@@ -106,7 +106,7 @@ TEST_CASE("with the OPRoS API alone, values of another type are converted as con
                           TwoHosts::connection("data", "Range", "small", "Adaptor", "small"));
     hosts.start_rtm();
     hosts.start_opros();
-    // Greater ones are none of 16 bits.
+    // Larger numbers do not fit into 16 bits.
     CHECK(hosts.says("opros", "RangeComp number 32767\n"));
     CHECK(hosts.says("rtm", "RangeRtc small 32767\n"));
     CHECK(hosts.says("opros", "port 'small': a message cannot cross the link and is dropped, 1 so far"));

@@ -79,7 +79,7 @@ TEST_CASE("converted and undecodable messages are counted once each, in both dir
                           TwoHosts::connection("data", "Range", "small", "Adaptor", "small"));
     hosts.start_rtm();
     hosts.start_opros();
-    // Of twenty numbers from 32758 on, ten have 16 bits.
+    // Ten of the twenty numbers from 32758 on fit into 16 bits.
     REQUIRE(hosts.says("opros", "RangeComp number 32767\n"));
     REQUIRE(hosts.says("rtm", "RangeRtc small 32767\n"));
     for (int i = 0; i < 1500; ++i) {

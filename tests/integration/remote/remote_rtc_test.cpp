@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// RTCs of a process that knows nothing of the link, behind it.
+// RTCs behind a link, in a process that knows nothing of the link.
 #include "tests/apps/tandem/program.hpp"
 #include "tests/integration/two_hosts.hpp"
 
@@ -65,7 +65,7 @@ class ForeignHost : public TwoHosts {
         const bool deactivated = stop("opros") == 0 && becomes("EchoRtc0", "INACTIVE");
         return deactivated && stop("rtm") == 0 && stop("other") == 0;
     }
-    /// Something that the host has not said before.
+    /// Returns a line that the host has not printed before.
     bool says_now(const std::string& host, const std::string& text) { return says(host, text, seen_[host]); }
     void forget() {
         for (const char* host : {"opros", "rtm"}) seen_[host] = output(host).size();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sends back what it hears, and provides a dictionary.
+// Sends back each word that it receives, and provides a dictionary.
 #include "DictionarySkel.h"
 #include "register_rtc.hpp"
 

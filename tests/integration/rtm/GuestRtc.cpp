@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Adds event ports and service ports when its configuration parameter `stage` becomes `add`, and removes them at `remove`. At
 // `index` the service ports have another interface.
-// Answers each alarm, says each event of its state machine, asks whoever provides its books.
+// Answers each alarm, prints each event of its state machine, and calls the provider of its books.
 #include "AlarmSkel.h"
 #include "DictionarySkel.h"
 #include "DictionaryStub.h"
@@ -149,7 +149,7 @@ class GuestRtc : public RTC::DataFlowComponentBase {
             if (CORBA::is_nil(books._ptr())) return;
             TestDictionary::Numbers_var pages = books->pages("hello", weights);
             guest::say(std::to_string(pages[0]) + " " + what);
-        } catch (const CORBA::SystemException&) { // nobody provides them now
+        } catch (const CORBA::SystemException&) { // no component provides them now
         }
     }
 

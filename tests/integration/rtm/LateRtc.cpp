@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Adds a port when it is activated, and adds and removes others as its configuration parameter `stage` says, in the thread
 // that sets it: `add` those of whole numbers, `double` those of doubles by the same names, which its parameter `late` asks for
-// from the start. Numbers its messages; says what it gets, and where a number is missing.
+// from the start. Sends numbered messages, and prints which messages it receives and which numbers are missing.
 #include "register_rtc.hpp"
 #include <rtm/DataFlowComponentBase.h>
 #include <rtm/DataInPort.h>

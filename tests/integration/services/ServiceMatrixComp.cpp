@@ -76,7 +76,7 @@ inline void load_this(opros::archive::iarchive& ar, Choice& choice) {
 
 namespace {
 
-/// The lowest number for a third of the seeds, the highest for another third. Of a character, the sign is no matter.
+/// The lowest number for a third of the seeds, the highest for another third. The sign of a character does not matter.
 template <class T>
 void set(T& value, int seed) {
     using Limits = std::numeric_limits<T>;

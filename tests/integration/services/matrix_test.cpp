@@ -33,7 +33,7 @@ TEST_CASE("every shape of service with every type crosses in both directions") {
                Catch::Contains(
                    "operation 'not_crossing' of interface Matrix::Service cannot be called, the others can: "
                    "argument 'a': a type that contains itself"));
-    // A refused value says why, unless too many did so before.
+    // Each refused value is explained, up to a limit.
     CHECK_THAT(hosts.output("rtm"),
                Catch::Contains("an argument cannot cross: an any contains a type that cannot") &&
                    Catch::Contains("its result cannot cross: a fixed is '1.234'"));

@@ -257,7 +257,7 @@ TEST_CASE("a mismatching type is refused with both signatures") {
             Catch::Contains("IDL:RTC/TimedDoubleSeq:1.0") &&
             Catch::Contains("field 1[] is int32 here, double there: ask for widen with convert.reference "
                             "of AdaptorComp, or use a type with that signature"));
-    // No conversion turns one into the other, so none is named.
+    // No conversion exists between the two, so the message names none.
     CHECK_THAT(
         adaptor::check_type(opros_any(std::string()), port, true).error,
         Catch::Contains(
@@ -275,7 +275,7 @@ TEST_CASE("a mismatching type is refused with both signatures") {
 
 namespace {
 
-/// By the functions for a head and for elements, as an archive without save_sequence() writes a vector.
+/// Uses the functions for a head and for elements, as an archive without save_sequence() does for a vector.
 template <class T>
 std::vector<std::byte> written_in_parts(const std::vector<T>& values) {
     std::vector<std::byte> bytes;

@@ -127,7 +127,7 @@ struct DeviceType {
     bool has_status() const { return own[0] == 'u'; }
 };
 
-/// Fields without a counterpart: no number but 0 is made up, except OPROS_SUCCESS and GPS_FIX_NORMAL.
+/// Fields without a counterpart are 0, except OPROS_SUCCESS and GPS_FIX_NORMAL.
 bool is_default(const DeviceType& device, bool opros, std::size_t index, const std::string& field) {
     if (opros && device.has_status() && index == 0) return field == bytes_of(OPROS_SUCCESS);
     if (!opros && std::string(device.rtm) == "GPSData" && index == 11) return field == bytes_of(1);

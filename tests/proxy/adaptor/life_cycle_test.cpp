@@ -64,7 +64,7 @@ TEST_CASE("a start activates the RTC once, however late the link's thread report
     REQUIRE(component.start() == OPROS_SUCCESS);
     REQUIRE(eventually([&] { return peer.has_received(".listen"); }));
     peer.hold("");
-    // The thread has done its first task when it executes the next one.
+    // When the thread executes this task, it has finished the one before.
     struct : DataPortListener {
         void arrived() override {}
     } listener;

@@ -47,7 +47,7 @@ struct Wire {
             return true;
         });
     }
-    /// Sends a value and gives the bytes back: it has to come out as it went in.
+    /// Sends a value and returns the received bytes to the port; the value must arrive unchanged.
     template <class T>
     std::unique_ptr<opros_any> there_and_back(const T& value, const std::string& convert_in = "",
                                               const std::string& convert_out = "") {

@@ -15,8 +15,8 @@
 
 namespace tandem::adaptor::test {
 
-/// A picture whose load() believes what it reads, as that of the RawImage.h which components carry: it has room for
-/// width x height x pixelByte bytes, and reads as many as `size` says. Counts those that would not have had room.
+/// A picture whose load() trusts its input, like the RawImage.h of many components: it allocates width x height x pixelByte
+/// bytes, and reads as many as `size` says. Counts the pictures that would have overflowed this memory.
 struct BelievingImage {
     int width = 0, height = 0, pixelByte = 0;
     unsigned long size = 0;

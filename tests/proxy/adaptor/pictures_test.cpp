@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures, as components send them: with sizes that say something else than the bytes.
+// Pictures as components send them, with sizes that contradict the number of bytes.
 #include "proxy/adaptor/event/mirror_event_out_port.hpp"
 #include "proxy/adaptor/service/mirror_provided_port.hpp"
 #include "proxy/adaptor/service/mirror_required_port.hpp"
@@ -231,7 +231,7 @@ TEST_CASE("pictures of Img::TimedCameraImage cross as a port requests: grey, col
               "{tm}({sec}u{nsec}u){data}({captured_time}({sec}u{nsec}u){image}({width}i{height}i{format}e#37{"
               "raw_data}ay){intrinsic}({matrix_element}[5]d{distortion_coefficient}ad){extrinsic}[4][4]d){"
               "error_code}i");
-    // A claim of 3 bytes per pixel is accepted only if it is true.
+    // A size of 3 bytes per pixel is accepted only if it is correct.
     Receiver<BelievingImage> receiver(
         wire, computed ? to_opros
                        : "narrow; raw: default raw; width: from data.image.width; "

@@ -195,7 +195,7 @@ TEST_CASE("of several input ports, the slowest one loses nothing of a sender tha
             for (int look = 0; !stopped && in_order[i] != count; ++look) {
                 const double number = pop_number(inputs[i]);
                 if (number == in_order[i] + 1) ++in_order[i];
-                // One reads in bursts, one counts what waits before it reads, and one as fast as it can.
+                // One target reads in bursts, one counts the waiting messages before it reads, and one reads as fast as it can.
                 if (i == 0 && look % 8 == 0) std::this_thread::sleep_for(100us);
                 if (i == 1 && inputs[i].getSize() == 0) std::this_thread::yield();
             }

@@ -36,7 +36,7 @@ class VoiceRequired : public RequiredServicePort {
     }
 };
 
-/// A component's required port, connected to the mirror of what the other side of a link provides.
+/// A component's required port, connected to the mirror of a port that the other side of a link provides.
 struct VoiceScene {
     explicit VoiceScene(const std::string& what)
         : name(link::test::unique_name("voice-" + what)), here(link::test::adaptor(name)),

@@ -130,7 +130,7 @@ struct ArmProvided : ProvidedServicePort {
     }
 };
 
-/// An OPRoS component's required port, connected to the mirror of what the other side of a link provides.
+/// An OPRoS component's required port, connected to the mirror of a port that the other side of a link provides.
 struct ServiceScene {
     explicit ServiceScene(const std::string& what)
         : name(link::test::unique_name("service-" + what)), here(link::test::adaptor(name)),
@@ -360,7 +360,7 @@ TEST_CASE("the peer calls methods with out arguments, attributes and results of 
 
     CHECK(mirror.serve({"arm", "_set_speed", "d:", encoded(8.0)}).status == CallStatus::ok);
 
-    // The same call by ids, which a caller with other types does not have.
+    // Makes the same call by ids. A caller with other types does not have these ids.
     const auto by_ids = [&](const char* operation, const char* signature,
                             const std::vector<std::byte>& sent) {
         wire::MessageBuffer memory;

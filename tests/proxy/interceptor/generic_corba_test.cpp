@@ -87,7 +87,7 @@ class ChairServant : public POA_TestChair::Chair {
     CORBA::Long number_ = 4;
 };
 
-/// Hands every call on to a CORBA object by generic_call: servant and call in a row move each byte twice.
+/// Passes every call on to a CORBA object by generic_call, so the servant and the call convert each value twice.
 class Forward : public CallTarget {
   public:
     explicit Forward(CORBA::Object_ptr object) : object_(CORBA::Object::_duplicate(object)) {

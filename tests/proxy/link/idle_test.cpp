@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A link on which nothing happens: its threads sleep, and wake for whatever happens then.
+// The threads of an idle link sleep, and wake up for each event.
 #include "tests/proxy/link/link_side.hpp"
 
 #include "proxy/link/protocol/control.hpp"

@@ -231,7 +231,7 @@ TEST_CASE("a side that returns finds free chunks even if the other side held one
             link.b = std::make_unique<LinkSide>(shm::Side::second, options, joystick_table());
             link.b->link.open();
         }
-        // The one that stayed learns a moment later that its session is over.
+        // The remaining side notices a moment later that its session is over.
         REQUIRE(eventually([&] {
             return link.a->link.is_up() && link.b->link.is_up() &&
                    send(link.b->link.writer("reference"), number) &&
@@ -264,7 +264,7 @@ TEST_CASE("ports whose type sets a bound below the ring's get no chunks") {
 
 namespace {
 
-/// In a /dev/shm of 12 MiB, where one image of 8 MiB finds memory and a second one does not.
+/// Runs in a /dev/shm of 12 MiB, which has room for one image of 8 MiB but not for a second one.
 int images_in_small_shm() {
     if (!shm::test::enter_small_shm(12)) return shm::test::not_permitted;
     const CapturedLog log;
@@ -283,7 +283,7 @@ int images_in_small_shm() {
     return c.sent == 6 && c.received == 3 && c.refused == 3 ? 0 : 6;
 }
 
-/// In one of 24 MiB, a large_kib of 8 MiB cannot be had: that takes four.
+/// A /dev/shm of 24 MiB has no room for a large_kib of 8 MiB, which needs four chunks.
 int asks_for_too_much() {
     if (!shm::test::enter_small_shm(24)) return shm::test::not_permitted;
     LinkOptions options = large(8 * mib);

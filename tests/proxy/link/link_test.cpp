@@ -167,7 +167,7 @@ TEST_CASE("all consequences of a peer's departure are over before the next peer'
     REQUIRE(eventually([&] { return deals_with_it.load(); }));
     b = interceptor(name);
     b->link.open();
-    // Looked at for a while: it must not happen, however long that takes.
+    // Waits for a while to check that it does not happen.
     CHECK_THROWS_WITH(b->link.wait_until_up(100ms, "peer"), Catch::Contains("did not come"));
     CHECK(b->link.call({"", "activate", "", {}}, 100ms).status != CallStatus::ok);
     may_return = true;
@@ -265,7 +265,7 @@ TEST_CASE("a killed peer is noticed, its calls end, and its successor is bound")
         }
         return child;
     };
-    // Both peers are born before any thread of this process, and the second waits for its turn.
+    // Both peers are forked before this process starts a thread; the second one waits for its turn.
     const pid_t first = start_peer();
     int turn[2];
     REQUIRE(pipe(turn) == 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Settings of single ports: the last value for a late peer, no loss, a longest silence.
+// Settings of single ports: keep_last, wait_ms and deadline_ms.
 #include "tests/proxy/link/link_side.hpp"
 #include "tests/support/membarrier.hpp"
 
@@ -88,7 +88,7 @@ TEST_CASE("a port that waits for room loses nothing while its reader reads, and 
     auto counters = reader.counters();
     CHECK(counters.received == count);
     CHECK(counters.dropped() == 0);
-    // Nobody reads: the oldest are kept, each other one is refused after the wait and counted.
+    // Without a reader, the oldest messages are kept, and each later one is refused and counted after the wait.
     policy.wait = 1ms;
     writer.set_policy(policy);
     int sent = 0;

@@ -80,7 +80,7 @@ struct Scene {
         const int before = count;
         return send(port) && eventually([&] { return count > before; });
     }
-    /// Until a message was noticed by the consumer's own thread. Those before may have found the notifier.
+    /// Waits until the consumer's own thread has noticed a message. Earlier messages may have woken the notifier.
     bool has_turn(Consumer& consumer, const std::string& port = "left") {
         return eventually([&] {
             const int before = consumer.arrived;

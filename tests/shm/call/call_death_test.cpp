@@ -24,7 +24,7 @@ TEST_CASE("a caller whose server is killed in the call learns it long before the
     CHECK(client.call(bytes_of("x"), 300s).status == CallStatus::peer_died);
     CHECK(now_ns() - before < 60'000'000'000);
     killer.join();
-    CHECK(client.call({}, 300s).status == CallStatus::peer_died); // and so does the next, taken by nobody
+    CHECK(client.call({}, 300s).status == CallStatus::peer_died); // also a call that no worker has taken
     CHECK(client.counters().in_use == 0);
 }
 
@@ -46,8 +46,7 @@ TEST_CASE("the slots of a killed caller become free, and its running call does n
     calling.kill_now();
     CHECK(second->peer_state() == PeerState::dead);
     running->reply(CallStatus::ok, std::string("too late"));
-    // The other call may have been submitted completely or not: either it is handed out once more or just
-    // freed.
+    // If the other call was submitted completely, it is handed out once more; otherwise its slot is freed.
     if (auto left = server.take(0ns)) left->reply(CallStatus::ok);
     CHECK_FALSE(server.take(1ms));
     CHECK(server.counters().in_use == 0);

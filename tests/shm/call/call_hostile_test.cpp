@@ -11,7 +11,7 @@ namespace {
 constexpr std::uint64_t sequences[] = {0, 1, 2, call_sequence_mask};
 constexpr std::uint64_t lengths[] = {0, 1, 63, 64, 65, 88, 113, 4096, 0x7fffffff, 0xffffffff};
 
-/// Everything that a word can claim, in steps.
+/// All values that a word can have, in steps.
 void for_each_word(const std::function<void(std::uint64_t)>& attempt) {
     for (std::uint32_t tag = 0; tag < 16; ++tag)
         for (const auto sequence : sequences)
@@ -94,13 +94,13 @@ TEST_CASE("a request word changed under a waiting caller ends its call and not i
             own = slot.request.word.load();
             slot.request.word.store(word);
         });
-        // The reply that the round before has left below may have this call's sequence: then it is a reply.
+        // A reply that the previous round has left may have this call's sequence, and is then valid.
         const bool replied = reply.status == CallStatus::ok && sequence_of(own) == sequence_of(planted);
         CHECK((replied || reply.status == CallStatus::exception || reply.status == CallStatus::timeout ||
                reply.status == CallStatus::overload));
         slot.reply.word.store(call_word(0, sequence_of(slot.request.word.load()), 0));
     });
-    // Nothing is left over; a slot said to be with a worker would be parked until that worker's reply.
+    // Checks that no slot is left in use. A slot whose word names a worker would stay in use until that worker's reply.
     slot.reply.word.store(call_word(0, sequence_of(slot.request.word.load()), 0));
     Workers workers(calls.server, 1, echo);
     CHECK(calls.client.call(bytes_of("sound again"), 20s).text() == "sound again");

@@ -82,7 +82,7 @@ TEST_CASE("calls given up at any moment never run twice, and all slots become fr
                 for (std::size_t i = 0; i < rounds; ++i) {
                     const std::size_t number = caller * rounds + i;
                     const std::string text = std::to_string(number);
-                    // From at once to long after the reply.
+                    // Deadlines from immediately to long after the reply.
                     const auto timeout =
                         i % 4 == 0 ? std::chrono::nanoseconds(60s) : std::chrono::nanoseconds(100 * (i % 83));
                     const Reply reply = calls.client.call(bytes_of(text), timeout);
@@ -112,7 +112,7 @@ TEST_CASE("a caller that only polls wakes a worker even if another one is expect
     std::thread once([&] { // polls, answers, and does not come back
         if (auto call = server.take(20s)) echo(*call);
     });
-    std::this_thread::sleep_for(20ms); // so that it is this one that polls, and the other one that sleeps
+    std::this_thread::sleep_for(20ms); // so that this worker polls and the other one sleeps
     Workers asleep(server, 1, echo);
     std::this_thread::sleep_for(20ms);
     CHECK(client.call({}, 5s).status == CallStatus::ok);

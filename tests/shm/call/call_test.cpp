@@ -207,7 +207,7 @@ TEST_CASE("a call queue keeps counters and durations that anybody can read") {
         return sum;
     };
     CHECK(total(queue.times->round_trip) == 100);
-    CHECK(total(queue.times->service) <= 100); // two workers at once: one of them leaves its time out
+    CHECK(total(queue.times->service) <= 100); // of two workers at the same time, one may not record its time
     CHECK(total(queue.times->service) > 0);
 }
 

@@ -238,7 +238,7 @@ TEST_CASE("observing changes neither a byte nor a time stamp of the file and wak
     struct stat before {
     }, after{};
     const std::string path = pair.first->path(), bytes = content_of(path);
-    // An access time older than the last change is what even `relatime` would bring up to date.
+    // Even `relatime` would update an access time that is older than the last change.
     const timespec times[2] = {{1, 0}, {0, UTIME_OMIT}};
     REQUIRE(utimensat(AT_FDCWD, path.c_str(), times, 0) == 0);
     REQUIRE(stat(path.c_str(), &before) == 0);

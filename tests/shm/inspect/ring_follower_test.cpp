@@ -140,7 +140,7 @@ TEST_CASE("a follower copies long messages from their chunks") {
     }
     CHECK(lengths.size() == 20);
     CHECK(lengths.back() == 5020);
-    // Four chunks for ten long messages that nobody reads: the content of all but the newest is gone.
+    // There are four chunks for ten long messages without a reader, so only the newest messages still have their content.
     for (std::uint64_t number = 21; number <= 30; ++number) ring.writer.write(payload_of(number, 6000), 0);
     follower.poll(check);
     CHECK(follower.delivered() + follower.lost() == 30);

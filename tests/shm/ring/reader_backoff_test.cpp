@@ -13,7 +13,7 @@ struct CountedPauses {
     static void pause() { ++count; }
 };
 
-/// A reader and a writer that has `ahead` records ready each time that the reader has looked in vain `looks` times.
+/// Simulates a reader and a writer. The writer has `ahead` records ready after the reader has found none `looks` times.
 int pauses_in(ReaderBackoff<CountedPauses>& backoff, int rounds, int ahead, int looks) {
     CountedPauses::count = 0;
     for (int round = 0; round < rounds; ++round) {
@@ -45,7 +45,7 @@ TEST_CASE("a reader does not pause for a writer that waits for its answer") {
     // It tries again, since the writer may have changed, but seldom.
     CHECK(pauses_in(backoff, 100'000, 1, 3) / pause < 20);
     CHECK(pauses_in(backoff, 100'000, 1, 3) / pause < 20);
-    // It does pause again when the writer gets ahead.
+    // It pauses again when the writer gets ahead.
     CHECK(pauses_in(backoff, 20'000, 4, 2) / pause > 10'000);
 }
 

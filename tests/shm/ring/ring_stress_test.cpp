@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writer and reader at full speed. Every payload can be checked by itself, so a torn or doubled one is
-// noticed, and the books must balance to the last message.
+// Writer and reader at full speed. Every payload can be checked by itself, so torn and repeated payloads are noticed. All
+// messages must be accounted for.
 #include "tests/shm/fixture.hpp"
 
 using namespace tandem::shm;
@@ -63,7 +63,7 @@ struct Got {
 
 std::uint64_t messages() { return stress(100000, 20'000'000); }
 
-/// Never reached unless something hangs, however busy the machine is.
+/// Only reached if something hangs, however busy the machine is.
 std::uint64_t far_away(std::uint64_t count) {
     return deadline_after(120s + std::chrono::microseconds(std::min<std::uint64_t>(count, 20'000'000) * 50));
 }

@@ -29,8 +29,8 @@ class FieldReader {
     ByteView rest_;
 };
 
-/// Parses the content of a record. Throws Error if it is too short. A message's data point into `content`. Of a chunk,
-/// the first chunk_head_limit bytes suffice.
+/// Parses the content of a record. Throws Error if it is too short. A message's data point into `content`. The first
+/// chunk_head_limit bytes of a chunk suffice.
 template <typename Record>
 Record parsed(ByteView content);
 

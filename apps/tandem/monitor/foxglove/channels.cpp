@@ -91,7 +91,7 @@ void Channels::deliver(const command::LinkFollower::Port& port, const shm::Follo
     });
 }
 
-/// What a bound leaves out is read by the next look, which begins with the link at which this one ends.
+/// Messages beyond a limit are read in the next round, which begins with the link at which this round ends.
 void Channels::poll() {
     using command::LinkFollower;
     Round round(stop_);

@@ -38,7 +38,7 @@ class ChannelClient {
 /// clients. [one thread]
 class Channels {
   public:
-    /// `state`: returns the newest State, which contains the links. `stop`: ends a look early; null: nothing does.
+    /// `state`: returns the newest State, which contains the links. `stop` ends a round early; null: no early end.
     Channels(boost::asio::io_context& context, std::function<const State&()> state,
              const std::atomic<bool>* stop = nullptr)
         : timer_(context), stop_(stop), state_(std::move(state)) {}

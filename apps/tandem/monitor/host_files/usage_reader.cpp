@@ -86,7 +86,7 @@ std::optional<HostUsage> UsageReader::read_host(std::uint32_t pid, std::uint64_t
 }
 
 void UsageReader::read(std::vector<HostState>& hosts, std::uint64_t now_ns) {
-    const bool looks = now_ns >= next_look_ns_ || looks_ < 2; // shares need two looks
+    const bool looks = now_ns >= next_look_ns_ || looks_ < 2; // shares need two readings
     if (looks) {
         next_look_ns_ = now_ns + usage_pause_ns;
         ++looks_;

@@ -27,7 +27,7 @@ class UsageReader {
     std::vector<ThreadUsage> read_threads(std::uint32_t pid, std::uint64_t now_ns);
     double share(const Key& key, const Sample& now);
 
-    std::map<Key, Sample> samples_, next_;      ///< of the last look, and of this one
+    std::map<Key, Sample> samples_, next_;      ///< of the previous reading, and of this one
     std::map<std::uint32_t, HostUsage> looked_; ///< at the last look
     std::uint64_t next_look_ns_ = 0;
     std::size_t looks_ = 0;

@@ -22,8 +22,8 @@ ClockTimes ClockTimes::now() {
     return {static_cast<double>(command::wall_clock_ns()) / 1e6, static_cast<double>(shm::now_ns()) / 1e6};
 }
 
-/// The sender's clock may be that of this machine, its monotonic clock, or another one that runs as fast; the first
-/// message tells how far that one is off. Without a useful stamp, the time of reading counts.
+/// The sender's clock may be this machine's wall clock, its monotonic clock, or another clock of the same rate; the first
+/// message gives the offset of the latter. Without a useful stamp, the time of reading counts.
 double SampleClock::time_of(std::uint64_t stamp, const ClockTimes& now) {
     if (const double offset_ms = now.wall_ms - now.monotonic_ms;
         std::abs(offset_ms - monotonic_offset_ms_) > set_ms)

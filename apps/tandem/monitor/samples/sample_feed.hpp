@@ -46,14 +46,14 @@ class SampleClient {
     ~SampleClient() = default;
 };
 
-/// Reads all messages of the ports that clients follow, as an observer, and decodes each once. What its bounds leave out
-/// is read by the next look, or is lost, which the clients recognize by the numbers of the samples. [one thread]
+/// Reads all messages of the ports that clients follow, as an observer, and decodes each once. Messages beyond its limits are
+/// read in the next round or lost. The clients recognize lost ones by the numbers of the samples. [one thread]
 class SampleFeed {
   public:
     static constexpr std::size_t max_ports = 64;         ///< of all clients; further ports are not followed
     static constexpr std::size_t max_picture = 16 << 20; ///< bytes of a message that is a picture
 
-    /// `state`: returns the newest State, which contains the links. `stop`: ends a look early; null: nothing does.
+    /// `state`: returns the newest State, which contains the links. `stop` ends a round early; null: no early end.
     SampleFeed(boost::asio::io_context& context, std::function<const State&()> state,
                const std::atomic<bool>* stop = nullptr)
         : timer_(context), stop_(stop), state_(std::move(state)) {}

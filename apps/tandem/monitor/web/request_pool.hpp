@@ -19,9 +19,8 @@ class PooledConnection {
     ~PooledConnection() = default;
 };
 
-/// The connections that wait for a request or answer one, without the WebSockets. If there are too many, a new
-/// connection takes the place of another one of the peer that has the most, so that slow or silent clients keep nobody
-/// out. [one thread]
+/// The connections that wait for a request or answer one, without the WebSockets. If there are too many, a new connection
+/// replaces one of the peer that has the most, so that slow or silent clients do not block others. [one thread]
 class RequestPool {
   public:
     static constexpr std::size_t max_open = 64, max_of_a_peer = 24;

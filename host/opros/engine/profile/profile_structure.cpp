@@ -66,7 +66,7 @@ bool contains(const std::string_view (&names)[n], std::string_view name) {
     return std::find(std::begin(names), std::end(names), name) != std::end(names);
 }
 
-// Of a file that somebody else wrote: the engine reads 5 levels, and nobody reads more lines.
+// Limits for files from outside: the engine reads 5 levels, and no user reads more lines.
 constexpr int max_depth = 32;
 constexpr std::size_t max_errors = 100;
 

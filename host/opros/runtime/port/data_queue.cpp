@@ -28,7 +28,7 @@ opros_any& DataQueue::push() {
 }
 
 opros_any& DataQueue::push_from(DataPortSource* source) {
-    if (depth() <= 1) return push(); // drops nothing, or what nobody misses
+    if (depth() <= 1) return push(); // drops nothing, or only values that no consumer needs
     sources_.resize(slots_.size());
     if (DataPortSource* const oldest = sources_[first_]; is_full() && oldest) oldest->discarded();
     opros_any& slot = push();

@@ -95,8 +95,8 @@ opros_any* InputDataPortImpl::pop() {
     const tandem::rt::ShortLock lock(mutex_, std::adopt_lock);
     if (ring_) return pop_from_ring();
     if (!sole_source_ || queue_.size() != 0) return pop_from_queue();
-    // Does not look at the source a second time, since the source is most likely empty then. In shared memory, such a
-    // look costs as much as reading a value.
+    // Does not look at the source a second time, since the source is most likely empty then. In shared memory, this check costs
+    // as much as reading a value.
     const ReadResult result = read_one(sole_source_);
     return result == ReadResult::value ? pool_.lend(decoded_) : pop_after(result);
 }

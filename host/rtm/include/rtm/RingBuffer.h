@@ -50,8 +50,8 @@ class RingBuffer : public BufferBase<DataType> {
 
     /// Ours: makes each value readable once. A value that arrives in the empty buffer takes the slot of the last read
     /// value. Reading a long value does not copy it, but exchanges its memory with the reader's variable. Therefore
-    /// advanceRptr() does not find the last value again. After a long value, readback only works with this variable
-    /// and returns it as its user has left it.
+    /// advanceRptr() does not find the last value again. After a long value, readback works only with this variable, and
+    /// returns it with any changes that its user has made.
     void readOnce() { reads_once_ = true; }
 
     // wptr(), rptr(), put() and get() access slots without moving. The mutex does not protect the pointers.

@@ -83,8 +83,8 @@ const VariableType variable_types[] = {
 
 } // namespace
 
-// Of a number it is known whether the component converts it with its own function. For other types, a default that is
-// more than a plain value of the type shows that.
+// For numbers it is known whether the component converts them with its own function. For other types, a default that is more
+// than a plain value of the type shows that.
 std::string expected_instead(const ConfigBase& parameter, const std::string& value) {
     for (const VariableType& type : variable_types) {
         if (!type.is_type_of(parameter)) continue;

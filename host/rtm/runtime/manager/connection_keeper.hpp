@@ -96,7 +96,7 @@ class ConnectionKeeper {
     std::atomic<bool> stopping_ = false; // set under the mutex; read without it between calls
     std::vector<ConnectorProfile> pending_disconnects_;
     std::map<std::string, tandem::process::OwnNotice>
-        lost_; // by describe_connection(); those that nobody keeps
+        lost_; // by describe_connection(); connections that are not kept
     std::vector<KeptConnection> new_connections_;
     std::vector<WaitingActivation> new_activations_;
     std::vector<Task> tasks_;

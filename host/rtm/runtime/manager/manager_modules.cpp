@@ -31,8 +31,8 @@ std::string base_name(const std::string& file_name) {
     return name.substr(0, name.find('.'));
 }
 
-// The name of the init function when rtc.conf does not give it: NAMEInit, without a leading `lib` as well, or
-// rtc_init, which components of old templates have.
+// The name of the init function when rtc.conf does not give it: NAMEInit with or without a leading `lib` in NAME, or rtc_init,
+// as in components of old templates.
 std::string find_init_symbol(const std::filesystem::path& file,
                              const tandem::plugin::LibraryContents& contents, const std::string& base) {
     std::vector<std::string> tried{base + "Init"};

@@ -22,7 +22,7 @@ using Clock = std::chrono::steady_clock;
 /// Waits until `next` at the latest. Clock::time_point::max() means without a time limit.
 void wait_for_wake_up(Clock::time_point next) {
     pollfd fd{wake_fd, POLLIN, 0};
-    // A wait of weeks would overflow: the loop then looks once a day.
+    // A wait of weeks would overflow, so the loop wakes up at least once a day.
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(next - Clock::now());
     const auto bounded =
         std::clamp<std::chrono::milliseconds>(left, std::chrono::milliseconds(0), std::chrono::hours(24));

@@ -46,7 +46,7 @@ class NameBindings {
     std::vector<Entry> entries() const;
     std::vector<Server> server_states() const;
     void set_reachable(const std::string& address, bool reachable);
-    /// Returns one line for the log about the names that it has bound again; empty if it has bound none.
+    /// Returns a line for the log about the names that were bound again; empty if there are none.
     std::string update(const Server& server, bool rebind);
 
     CORBA::ORB_var orb_;

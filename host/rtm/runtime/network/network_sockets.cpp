@@ -118,7 +118,7 @@ bool is_connected_to_network(int fd) {
 
 void set_int(int fd, int level, int option, int value) {
     ::setsockopt(fd, level, option, &value,
-                 sizeof value); // a socket without it works as well, only not as well
+                 sizeof value); // a socket without this option works too, but less well
 }
 
 // Without keep-alives, the thread that serves a connection waits forever for a machine that was switched off. If the

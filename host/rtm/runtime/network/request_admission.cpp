@@ -77,7 +77,7 @@ const char* refuse(const char* reason) {
     return reason;
 }
 
-// Of this thread, for the header, for the rest of a request, or for its reply.
+// The limit of this thread for the header, for the rest of a request, or for its reply.
 milliseconds longest_wait() {
     const auto usual = connection_limits().request;
     if (!current.occupies_thread || occupied_threads <= many_threads) return usual;

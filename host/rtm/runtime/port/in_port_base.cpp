@@ -26,7 +26,7 @@ bool is_pull(const coil::Properties& connector_properties) {
     return coil::normalize(connector_properties.getProperty("dataflow_type", "push")) == "pull";
 }
 
-// Notes the lines of a look for a message. `members`: of the port.
+// Records the cache lines that a check for a message uses. `members`: of the port.
 void note_port(std::initializer_list<const void*> members, const InPortBase::ConnectorList& connectors) {
     using tandem::rt::note_lines;
     for (const void* member : members) note_lines(member, sizeof(void*));

@@ -5,8 +5,8 @@
 
 namespace RTC {
 
-/// Tells a tool what happens to the component: the interface ComponentObserver of OpenRTM-aist, which RTSystemEditor uses, or
-/// the one of FSM4RTC (`with_fsm`), which rtshell uses. The tool chooses with `observed_status` and sets heartbeats.
+/// Notifies a tool of what happens to the component: the interface ComponentObserver of OpenRTM-aist, which RTSystemEditor
+/// uses, or the one of FSM4RTC (`with_fsm`), which rtshell uses. The tool chooses with `observed_status` and sets heartbeats.
 class ComponentObserver : public ToolService {
   public:
     explicit ComponentObserver(bool with_fsm) : with_fsm_(with_fsm) {}

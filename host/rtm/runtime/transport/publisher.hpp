@@ -15,8 +15,8 @@ namespace RTC {
 /// A thread that delivers messages in the place of the writer (subscription types new and periodic), so that
 /// a slow receiver does not hold the writer up. Properties, as in OpenRTM-aist, with or without `publisher.`:
 /// `push_policy` all | fifo | skip | new (default new), `skip_count`, `push_rate` (Hz, periodic); `buffer.*`.
-/// Of the waiting messages, `all` delivers every one, `fifo` (periodic) the oldest, `skip` every (skip_count
-/// + 1)th, `new` the newest.
+/// Policies for waiting messages: `all` delivers all of them, `fifo` (periodic) the oldest, `skip` every (skip_count + 1)th,
+/// `new` the newest.
 class Publisher {
   public:
     /// Delivers one message. The publisher's thread calls it, but never again after it has returned CONNECTION_LOST.

@@ -176,7 +176,7 @@ void PushReceiver::start_server() {
 
 void PushReceiver::receive_from_ring() {
     const RingTurn turn(ring_owner_, RingTurn::Wait::yes);
-    if (turn.is_mine()) receive_with_turn(); // otherwise a listener is calling, and its caller looks again
+    if (turn.is_mine()) receive_with_turn(); // otherwise a listener is calling, and its caller checks again
 }
 
 void PushReceiver::try_receive_from_ring() {

@@ -71,7 +71,7 @@ TEST_CASE("a neighbour of a header may be the IDL file that it is made from") {
     CHECK(scan.idl_files == std::vector<fs::path>{grip, "/hands/Palm.idl"});
 }
 
-// As RTCBuilder makes components for tests: it takes every IDL file for one with services.
+// RTCBuilder creates test components in this form; it treats every IDL file as one with services.
 TEST_CASE("an implementation of services that an IDL file does not have is the header of its data types") {
     const Folder folder;
     folder.write("Arm/idl/Path.idl", "// interface\nstruct Path { sequence<double> node; };\n");

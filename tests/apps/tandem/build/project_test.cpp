@@ -91,8 +91,8 @@ TEST_CASE("blocks within blocks and variables within variables are not followed 
     CHECK(lists.definitions.empty());
 }
 
-// The shapes in one: a program with a further source, an own static library, branches, a header that configuring
-// makes, and required packages that are missing.
+// A project with everything: a program with another source, a static library, branches, a header that configuring generates,
+// and required packages that are missing.
 TEST_CASE("CMake itself says what the library of a component compiles") {
     const Folder folder;
     fs::create_directories(folder.path() / ".git");
@@ -192,7 +192,8 @@ TEST_CASE("a standard is that of the project, also by the name of its draft, and
     }
 }
 
-// As RTCBuilder and others make projects: for installations of OpenRTM-aist, and with templates that are not checked in.
+// Projects as RTCBuilder and other tools generate them: for installations of OpenRTM-aist, and with templates that are not
+// checked in.
 TEST_CASE("a project's own FindOpenRTM.cmake and missing templates do not keep it from being configured") {
     const Folder folder;
     folder.write("cmake/FindOpenRTM.cmake", "file(STRINGS /nowhere/rtm/version.h lines)\n");

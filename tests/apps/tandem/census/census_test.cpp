@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `tandem opros census` and `tandem rtm census` over shelves of good and bad components.
+// `tandem opros census` and `tandem rtm census` over folders of good and bad components.
 #include "tests/apps/tandem/program.hpp"
 #include "tests/apps/tandem/shell.hpp"
 #include "tests/host/opros/engine/folder.hpp"
@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Writes the RT-Component NAME, whose onActivated() has this body.
+// Writes an RT-Component NAME with this body of onActivated().
 void write_rtc(const Folder& folder, const std::string& name, const std::string& body,
                const std::string& include = "") {
     folder.write(

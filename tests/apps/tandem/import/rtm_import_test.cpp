@@ -314,7 +314,7 @@ TEST_CASE("components created by neither precreate nor a module stay in their pr
 
 TEST_CASE("a component of the profile whose module exists is created in the host") {
     const Installation installation("manager.modules.load_path: modules\n");
-    // The second one as Choreonoid writes it, with the instance's name in the type's place.
+    // The second one is written as Choreonoid does, with the instance's name in place of the type.
     installation.write("robot/RTSystem.xml", system_profile(component("Left", "TestComponents") +
                                                             component("TestComponents0", "TestComponents0")));
     const auto result = installation.import();

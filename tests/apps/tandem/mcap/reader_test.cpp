@@ -191,7 +191,7 @@ TEST_CASE("a file that is not an MCAP file is refused in one line") {
 
 namespace {
 
-/// The begin of a file, to which a test appends records as another writer would.
+/// The beginning of a file, to which a test appends records as another writer would.
 Bytes begun() {
     Bytes bytes;
     const auto start = std::as_bytes(std::span(magic));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who may control, and what a request may be. browser/drive_test.mjs drives.
+// Which clients may control, and which requests are valid. browser/drive_test.mjs drives.
 #include "http_client.hpp"
 
 #include <algorithm>

@@ -10,7 +10,7 @@ using tandem::shm::PeerState;
 
 namespace {
 
-/// The texts of the events between two states of one link, a bad one's behind "!".
+/// Returns the texts of the events between two states of one link; "!" marks a bad event.
 std::vector<std::string> texts(const LinkState& before, const LinkState& after) {
     std::vector<std::string> texts;
     for (const Event& event : events_between(state_of({before}), state_of({after}))) {
@@ -135,7 +135,7 @@ TEST_CASE("a refused connection is an event, and so is the end of the refusal") 
     const auto over = events_between(refused, sound);
     REQUIRE(over.size() == 1);
     CHECK_FALSE(over[0].bad);
-    // With the host that refused it, it is not over: nobody connects the two.
+    // When the host that refused the connection has ended, the problem remains: nothing connects the two ports.
     State ended = sound;
     ended.links[0].sides[0] = {};
     for (const auto& event : events_between(refused, ended)) CHECK(event.link == "chair");

@@ -15,7 +15,7 @@ namespace {
 
 bool has_hang(const State& state) { return judge(state).level == Level::hanging; }
 
-/// The one that hangs must be this one, in this callback, and the only one.
+/// Checks that this component hangs in this callback, and that no other component hangs.
 void check_hang(Tanks& tanks, const std::string& component, const std::string& callback) {
     REQUIRE(tanks.sees(has_hang));
     const State state = tanks.look();

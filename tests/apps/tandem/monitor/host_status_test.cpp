@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the verdict says of hosts that do not do what they were asked for.
+// The verdict about hosts that cannot fulfil a request, such as a priority.
 #include "tanks.hpp"
 
 #include "apps/tandem/monitor/verdict.hpp"
@@ -12,7 +12,7 @@ using Catch::Contains;
 
 namespace {
 
-/// The verdict must come to this level and name this.
+/// Checks the level of the verdict, and that its text contains `named`.
 void check_verdict(Tanks& tanks, Level level, const std::string& named) {
     Verdict verdict;
     tanks.sees([&](const State& state) {

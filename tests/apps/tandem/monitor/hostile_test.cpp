@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Clients that mean harm: broken requests and frames, many connections, readers that do not read. The monitor's memory is
-// bounded, it serves the next one, and the hosts do not notice. TANDEM_STRESS=N makes it longer, up to 10^5 attacks.
+// Hostile clients: broken requests and frames, many connections, readers that do not read. The monitor's memory stays bounded,
+// it serves the next client, and the hosts are not affected. TANDEM_STRESS=N makes it longer, up to 10^5 attacks.
 #include "http_client.hpp"
 
 #include "shm/os/file_descriptor.hpp"
@@ -27,7 +27,7 @@ constexpr long max_memory_kb = 600 << 10; // the sanitizer keeps what is freed f
 constexpr long max_memory_kb = 200 << 10;
 #endif
 
-/// Bytes that no client should send, other ones for each number.
+/// Bytes that no client should send, different for each number.
 class Attacker {
   public:
     Attacker(const RunningMonitor& monitor, const std::string& link) : monitor_(monitor), link_(link) {}
@@ -128,7 +128,7 @@ class Attacker {
         if (form == 126) text += {static_cast<char>(length >> 8), static_cast<char>(length)};
         return mask ? text + std::string(4, '\0') : text;
     }
-    /// False if the server has closed before it had all.
+    /// Returns false if the server has closed the connection before it received all bytes.
     static bool send(int socket, const std::string& bytes) {
         for (std::size_t sent = 0; sent < bytes.size();) {
             const auto now = ::send(socket, bytes.data() + sent, bytes.size() - sent, MSG_NOSIGNAL);
@@ -137,7 +137,7 @@ class Attacker {
         }
         return true;
     }
-    /// What comes within that time.
+    /// Returns the bytes that arrive within that time.
     static std::string answer(int socket, timeval bound) {
         char bytes[2000];
         setsockopt(socket, SOL_SOCKET, SO_RCVTIMEO, &bound, sizeof bound);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who gets a place at the monitor, without a connection. clients_test.cpp does it with connections.
+// Which client gets a place at the monitor, tested without connections. clients_test.cpp uses connections.
 #include "apps/tandem/monitor/web/places.hpp"
 #include "apps/tandem/monitor/web/request_pool.hpp"
 

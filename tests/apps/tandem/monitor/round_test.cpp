@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one look reads if there is more than its bounds allow.
+// What one round reads if there is more than its limits allow.
 #include "apps/tandem/monitor/state_reader.hpp"
 #include "running_monitor.hpp"
 #include "shm/ring/ring_writer.hpp"

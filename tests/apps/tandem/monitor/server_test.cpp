@@ -20,7 +20,7 @@ TEST_CASE("the page and its scripts come from the server alone") {
     CHECK(page.body.find("//") == std::string::npos); // no address of another host
     CHECK(get(monitor, "/app.js").type == "text/javascript; charset=utf-8");
     CHECK(get(monitor, "/style.css").type == "text/css; charset=utf-8");
-    // Each module that a script imports is served, and asked for by the page itself, not when that script has come.
+    // Each module that a script imports is served, and the page requests it directly instead of after the script has arrived.
     std::set<std::string> modules{"app"};
     std::vector<std::string> to_look_at{"app"};
     while (!to_look_at.empty()) {

@@ -74,7 +74,7 @@ class Tanks {
         start("opros_host", {OPROS_HOST, "--plugin-path", TANK_PLUGINS, folder_ / "app.xml"}, arguments);
     }
 
-    /// Looks until the state of the host is as wanted, at most as long as is out of proportion.
+    /// Reads until the state of the host is as wanted, for a generous time.
     bool sees(const std::function<bool(const State&)>& wanted) {
         for (int i = 0; i < 300; ++i) {
             std::this_thread::sleep_for(std::chrono::milliseconds(100));

@@ -69,8 +69,8 @@ namespace {
 
 constexpr std::int64_t second_ns = 1'000'000'000;
 
-/// Looks at these times, in seconds; whether the last look finds that the tick hangs. Later looks also find the page by what
-/// this process has opened to read it.
+/// Reads at these times, in seconds. Returns whether the last reading finds that the tick hangs. Later readings also find the
+/// page through the descriptor with which this process reads it.
 bool hangs_after(TickReader& reader, const std::vector<double>& looks) {
     bool hangs = false;
     for (const double at : looks) {
@@ -91,7 +91,7 @@ TEST_CASE("a tick hangs if it is overdue by several periods and 0.6 s in two suc
     slot->due_ns = 200 * second_ns;
     CHECK_FALSE(hangs_after(reader, {200.3, 200.5}));
     CHECK(hangs_after(reader, {200.7}));
-    slot->due_ns = 300 * second_ns; // as after a stop of the host: the first look may be too early
+    slot->due_ns = 300 * second_ns; // the host may have been stopped, so the first reading may be too early
     tandem::rt::count(slot->ticks);
     CHECK_FALSE(hangs_after(reader, {302}));
     CHECK(hangs_after(reader, {302.2}));

@@ -157,7 +157,7 @@ TEST_CASE("overrunning ticks are reported as late or as bad by their share, and 
     CHECK(verdict(50).level == Level::overrun);
     CHECK(verdict(50).reason ==
           "ControlComp in opros_host (pid 11): 50 of 500 ticks of 10 ms overran in the last 5 s");
-    // Of slow ticks a share says little until there are a few.
+    // The share of slow ticks is not meaningful for only a few ticks.
     tick.ticks_recently = 5;
     CHECK(verdict(2).level == Level::late);
     CHECK(verdict(3).level == Level::overrun);

@@ -202,7 +202,8 @@ TEST_CASE("the last line names the error of omniidl, whatever it is") {
                Catch::Contains("Broken.idl:2: Error in look-up of 'Lost'"));
 }
 
-// As generated solvers have it: a program or a part of a library, by a macro; two of them, as a robot with two arms has.
+// A macro decides whether the source is a program or part of a library, as in generated solvers. There are two, as for a robot
+// with two arms.
 TEST_CASE("a source whose main() is disabled by a macro is built, and one with a main() is not") {
     const Folder folder;
     const std::string dir = folder.path() / "Rtc";

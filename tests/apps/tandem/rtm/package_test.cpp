@@ -30,7 +30,7 @@ struct Installed {
     std::string at(const std::string& name) const { return folder.path() / name; }
 };
 
-// Until the component has printed `expected`: its first onExecute may come after the host's `ready`.
+// Waits until the component has printed `expected`, because its first onExecute may follow the host's `ready`.
 tandem::test::CommandOutput until_printed(const std::string& command, const std::string& expected) {
     const auto said = tandem::test::run_host(command, "", expected);
     INFO(command << "\n" << said.output);
@@ -42,7 +42,8 @@ void host_runs(const std::string& command, const std::string& expected) {
     CHECK(until_printed(command, expected).exit_code == 0);
 }
 
-// The manager takes signals from runManager() on, which may come after the component's word; 143 before.
+// The manager handles signals only from runManager() on, which may follow the component's text; before that, the exit code is
+// 143.
 void program_runs(const std::string& command, const std::string& expected) {
     const int code = until_printed(command, expected).exit_code;
     CHECK((code == 0 || code == 143));

@@ -128,7 +128,7 @@ TEST_CASE("a host ends normally while a tool waits for a transition") {
     Running host("Counter", {"exec_cxt.periodic.rate:0.01", "exec_cxt.activation_timeout:1000"});
     REQUIRE(host.other.host.wait_for_output("ready\n"));
     std::thread tool([&] { host.run({"activate", "Counter0", "--timeout", "60"}); });
-    // Long enough for the request to be there, as a rule: if it is not, the host ends in order anyway.
+    // The request has usually arrived by then. If not, the host ends in order anyway.
     std::this_thread::sleep_for(std::chrono::seconds(2));
     host.other.host.send_signal(SIGTERM);
     CHECK(host.other.host.wait_for_exit() == 0);
@@ -299,7 +299,7 @@ TEST_CASE(
     CHECK(other.host.wait_for_output("uses step 5\n"));
     CHECK(conf({"step=6"}).output_contains("default (active)\n  level=2\n  size=3\n  step=6\n"));
     CHECK(other.host.wait_for_output("uses step 6\n"));
-    // The values of another set leave the active one active.
+    // Setting values of another set does not change the active set.
     CHECK(conf({"step=8", "--set", "other"}).output_contains("other\n  step=8\n"));
     CHECK(conf({"step=9"}).output_contains("default (active)\n  level=2\n  size=3\n  step=9\n"));
     CHECK(other.host.wait_for_output("uses step 9\n"));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A component with a device library of the user's own, found as component libraries are.
+// A component with a user's device library, which is found like component libraries.
 #include "tests/host/opros/engine/running.hpp"
 
 using tandem::engine::Application;

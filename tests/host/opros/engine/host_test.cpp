@@ -227,7 +227,7 @@ TEST_CASE("a host whose log nobody reads any more runs on, and ends in order") {
 
 TEST_CASE("one signal ends a host whose log is full and nobody reads it") {
     const Folder folder;
-    // The component prints its end itself, and blocks in this.
+    // The component itself prints a line at its end, and blocks while doing so.
     Process host({OPROS_HOST, "--plugin-path", FIXTURES, "--grace", "0.2", one_component(folder, "maker")});
     REQUIRE(host.prints("ready\n"));
     host.stall();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The word on which the executor of an aperiodic component sleeps.
+// Tests the word on which the executor of an aperiodic component sleeps.
 #include "host/opros/engine/execute/input_signal.hpp"
 
 #include <catch2/catch.hpp>
@@ -51,7 +51,7 @@ TEST_CASE("no arrival is lost beside a wait that begins, ends or runs out") {
 
 namespace {
 
-/// A waiter as a source lends it. It refuses, or sleeps until wake() or value().
+/// A place to wait, as a source provides it. It refuses, or sleeps until wake() or value().
 class LentWaiter : public ArrivalWaiter {
   public:
     Result wait(const DataPortListener&) override {

@@ -76,7 +76,7 @@ TEST_CASE("values of sources fill the queue as pushed ones do, whoever looks at 
             port.push(number); // by a component of the same host
         else if (choice % 3 == 1 || sources == 1)
             source[0].send_bounded(number);
-        else if (port.getSize(); true) // in which order several sources got theirs shows when somebody looks
+        else if (port.getSize(); true) // only reading shows the order of values from several sources
             source[1].send_bounded(number);
         if (sources == 2) port.getSize();
         if (choice % 7 == 0) {

@@ -274,7 +274,7 @@ TEST_CASE("an encoded call loads what is sent and saves what was written") {
     const std::unique_ptr<Method> method(makeProvidedMethod(&Limits::read, &limits, "read"));
     struct Call : EncodedCall {
         BinaryPipe in, out;
-        // Argument 1 is not sent, and nobody wants argument 2 back.
+        // Argument 1 is not sent, and argument 2 is not returned.
         opros::archive::iarchive* argument(int index) override { return index == 1 ? nullptr : &in.in; }
         opros::archive::oarchive& result() override { return out.out; }
         opros::archive::oarchive* written_argument(int index) override {

@@ -142,7 +142,7 @@ TEST_CASE("The members of a composite within a composite become active, run and 
     CHECK(state_in(outer, innermost) == RTC::ACTIVE_STATE);
     CHECK(first.value_.data == 5);
     CHECK(second.value_.data == 5);
-    fixture.step(innermost); // its own context is stopped and runs nobody twice
+    fixture.step(innermost); // its own context is stopped, so no component runs twice
     CHECK(first.value_.data == 5);
     REQUIRE(outer.deactivate(0) == RTC::RTC_OK);
     fixture.step(outer);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tools that observe a component: what they are told, and when it ends.
+// Tools that observe a component: what they are notified of, and when this ends.
 #include "ToolServicesSkel.h"
 #include "tests/host/rtm/manager_fixture.hpp"
 #include "tests/host/rtm/remote_host.hpp"

@@ -69,7 +69,7 @@ class Mutator {
             for (std::size_t n = random_below(64); n > 0; --n) m.push_back(random_byte());
         }
     }
-    // Numbers at which checks of lengths fail: 0, the ends of the signed and unsigned range, the true length.
+    // Numbers that faulty length checks miss: 0, the ends of the signed and unsigned range, the true length.
     std::uint32_t boundary_value(std::size_t size) {
         const std::uint32_t edges[] = {0,
                                        1,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A component as they are written for OpenRTM-aist 2.x, with its headers in an order nobody would choose.
+// A component in the style of OpenRTM-aist 2.x, with its headers in an unusual order.
 #include <coil/PeriodicTask.h>
 #include <rtm/ConnectorListener.h>
 #include <rtm/CorbaNaming.h>

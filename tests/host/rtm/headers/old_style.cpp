@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A component as they were written for OpenRTM-aist 1.x: ports before types, coil's time and locks, plain listener
-// names, listeners without a result, log macros without a semicolon, the former names of headers and functions.
+// A component in the style of OpenRTM-aist 1.x: ports before types, coil's time and locks, plain listener names, listeners
+// without a result, log macros without a semicolon, the former names of headers and functions.
 #include <rtm/DataInPort.h>
 #include <rtm/DataOutPort.h>
 #include <rtm/idl/BasicDataTypeSkel.h>

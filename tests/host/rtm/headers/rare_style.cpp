@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What few components use: the manager without its header, codes of 1.x, member functions as listeners, a
-// composite and an execution context of one's own, names in name servers, streams of log lines.
+// Features that few components use: the manager without its header, codes of 1.x, member functions as listeners, a composite
+// and an execution context of one's own, names in name servers, streams of log lines.
 #include <rtm/DataFlowComponentBase.h>
 
 inline bool known(const char* name) { return RTC::Manager::instance().getComponent(name) != nullptr; }

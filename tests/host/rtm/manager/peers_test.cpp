@@ -73,7 +73,7 @@ TEST_CASE(
     const auto first = lines.get();
     CHECK_THAT(first, Catch::Contains("/slow is still being created: onInitialize has taken ") &&
                           Catch::Contains(" s so far; it will be connected when it is available\n"));
-    // Once it has been created, the reason is another one: it has no such port.
+    // Once the component has been created, the reason changes: it has no such port.
     CHECK(eventually([&] { return lines.get().find("has no port out") != std::string::npos; }));
     CHECK(lines.get().rfind("being created") == first.find("being created"));
     creation.join();

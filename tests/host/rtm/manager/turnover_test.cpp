@@ -73,7 +73,7 @@ TEST_CASE("Components that are created, connected and deleted leak nothing") {
 }
 
 TEST_CASE("Components that a tool creates and deletes leak nothing") {
-    // The host's threads come and go; with an arena of malloc for each, its size is that of how they happened to meet.
+    // The host's threads come and go. With a malloc arena for each, the size would depend on how many exist at the same time.
     setenv("MALLOC_ARENA_MAX", "1", 1);
     RemoteHost other("Counter", unused_port(), {"exec_cxt.periodic.rate:1000"});
     unsetenv("MALLOC_ARENA_MAX");

@@ -158,7 +158,7 @@ TEST_CASE("A listener to the values of a direct connection gets them without ser
     CHECK(read->seen == &ports.received);
     CHECK(received->seen->data.length() == 100000);
 
-    // One that wants bytes makes bytes of all messages, and the others still get values.
+    // If one listener requests bytes, all messages are encoded; the other listeners still get values.
     auto* bytes = new LookAtBytes;
     ports.in.addConnectorDataListener(RTC::ON_BUFFER_WRITE, bytes);
     received->seen = nullptr;

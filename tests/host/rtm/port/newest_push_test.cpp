@@ -57,14 +57,14 @@ struct HeldPush {
     std::shared_ptr<HeldCalls> calls = std::make_shared<HeldCalls>();
     RTC::NewestPush push{std::make_unique<HeldReceiver>(calls)};
     RTC::DataPortStatus write() { return push.write(RTC::ByteData()); }
-    /// Writes so many values, each of which goes by a call of its own.
+    /// Writes this number of values, each by a separate call.
     void begin_calls(std::size_t count) {
         for (std::size_t call = 1; call <= count; ++call) {
             CHECK(write() == RTC::DataPortStatus::PORT_OK);
             calls->wait_for_calls(call);
         }
     }
-    /// What write() says once the thread that had an answer has passed it on.
+    /// Returns the result of write() after the thread with an answer has passed the answer on.
     RTC::DataPortStatus write_until(RTC::DataPortStatus expected) {
         RTC::DataPortStatus status = write();
         for (int i = 0; i < 6000 && status != expected; ++i) {

@@ -155,7 +155,7 @@ TEST_CASE("A port's buffer does what a ring buffer with the same policies does")
     for (int i = 0; i < 3000; ++i) {
         const unsigned operation = random() % 10;
         const auto value = static_cast<unsigned char>(random() % 200);
-        // What lies before the oldest value after a reset, or in front of a first one, is nobody's business.
+        // The content before the oldest value after a reset, or before the first value, is unspecified.
         if (operation == 5 && value % 5 < 2) continue;
         INFO("operation " << operation << " with " << int{value} << " at " << i);
         both.check([&](RTC::CdrBufferBase& buffer) { return step(buffer, operation, value); });

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who is told of what: connectors, connections, component actions, configuration; and the callbacks of ports.
+// Which listeners are called: those of connectors, connections, component actions and configuration; and the callbacks of
+// ports.
 #include "tests/host/rtm/manager_fixture.hpp"
 
 using namespace testing;
@@ -180,7 +181,7 @@ TEST_CASE("A subscription to new data tells the sender of each message that it o
 
 namespace {
 
-// What comes of 1 ... 6 through a publisher, in the order of its coming.
+// Returns which of 1 ... 6 arrive through a publisher, in the order of arrival.
 std::vector<long> published(ManagerFixture& fixture, const std::string& properties, std::size_t min_values) {
     ListenedConnection connection(fixture, "buffer.length=16&" + properties);
     for (connection.counter.value_.data = 1; connection.counter.value_.data <= 6;

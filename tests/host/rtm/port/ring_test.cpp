@@ -67,7 +67,7 @@ TEST_CASE("Messages that nobody reads go by calls after a while, which shows whe
     connection.put(1);
     CHECK(connection.calls->count == 0);
     std::this_thread::sleep_for(2 * RTC::MessageRingWriter::max_unread);
-    connection.put(2); // the first look at how long nobody has read
+    connection.put(2); // the first check of how long the port has not been read
     std::this_thread::sleep_for(2 * RTC::MessageRingWriter::max_unread);
     connection.put(3);
     CHECK(connection.calls->count >= 1);
@@ -237,7 +237,7 @@ TEST_CASE("An rtm_host sends a port of another one its messages through a ring")
             .empty());
     CORBA_RTCUtil::activate(there.in());
     RTC::InPortConnector* const connector = accumulator.in_.connectors().front();
-    // What the ring has is not in the port's buffer before it is looked at: calls would have brought it there.
+    // Messages in the ring enter the port's buffer only when the port is read; calls would have put them there at once.
     CHECK(eventually([&] { return connector->readableCount() > 0; }));
     while (accumulator.in_.isNew()) accumulator.in_.read();
     CHECK(eventually([&] {

@@ -109,7 +109,7 @@ struct Nested : POA_Testing::Listener {
     Testing::Talk_ptr talk_;
 };
 
-/// Answers with a call of its own, once it may.
+/// Makes a call itself while it answers, once it is allowed to.
 struct LateCaller : POA_Testing::Listener {
     explicit LateCaller(Testing::Talk_ptr talk) : talk_(talk) {}
     CORBA::Long heard(CORBA::Long) override {

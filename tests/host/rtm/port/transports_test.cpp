@@ -11,7 +11,7 @@ using namespace testing;
 
 namespace {
 
-// The wire of this transport: who listens under an address.
+// Stands for the network of this transport: maps addresses to listeners.
 std::map<std::string, RTC::InPortConnector*> listening;
 std::map<std::string, std::function<RTC::BufferStatus(RTC::ByteData&)>> waiting;
 std::function<void(RTC::ByteData&)> on_received;
@@ -149,7 +149,7 @@ TEST_CASE("a registered push transport carries the data of connections that ask 
     CHECK(accumulator.sum_ == 10);
     CHECK(received_values == std::vector<int>{1, 2, 3, 4}); // from the provider
 
-    listening.clear(); // nothing takes another way
+    listening.clear(); // no message takes another way
     fixture.step(counter);
     fixture.step(accumulator);
     CHECK(accumulator.received_ == 4);

@@ -34,7 +34,7 @@ inline std::uint64_t Execution::look(std::uint32_t word, Order order, Index& rea
         const Index floor = choices_.node(node_).sleep[turn_];
         if (floor != asleep) oldest = std::max<std::size_t>(oldest, floor);
     }
-    // Stores come to be seen some day: nobody reads the same old one again and again.
+    // Stores become visible eventually: no thread reads the same old store forever.
     Repeat& repeat = me().repeats[word];
     const std::size_t allowed = oldest;
     if (me().pauses >= settings_.max_stale_reads || me().hurry != 0) oldest = newest;
@@ -147,8 +147,8 @@ inline bool Execution::compare(std::uint32_t word, std::uint64_t& expected, std:
     return success;
 }
 
-/// Plain accesses are no turns of their own: if they are ordered, nobody can tell when they happen; if they
-/// are not, that is found whichever comes first.
+/// Plain accesses are not separate steps. If they are ordered, their exact moment cannot be observed; if not, the race is found
+/// in either order.
 inline std::uint64_t Execution::take(std::uint32_t word, const Site& at) {
     if (in_thread()) {
         if (over()) return 0;
@@ -167,9 +167,9 @@ inline void Execution::put(std::uint32_t word, std::uint64_t value, const Site& 
     memory_.write(me().observer, word, value, Order::relaxed);
 }
 
-/// What this thread has read last of a word must happen before every later store there. A copy that is
-/// believed must be like that: otherwise the processor or compiler may delay the load behind the store (load
-/// buffering, which the executions themselves do not show).
+/// The value that this thread has read last from a word must happen before every later store to it. A copy that is believed
+/// must be like that: otherwise the processor or compiler may delay the load behind the store (load buffering, which the
+/// executions themselves do not show).
 inline void Execution::settle(std::uint32_t word, const Site& at) {
     if (!in_thread() || over()) return;
     if (memory_.settle(turn_, word, me().repeats[word].index)) return;
@@ -230,8 +230,8 @@ inline std::uint64_t Execution::now() {
     return thread.observer.time;
 }
 
-/// As the kernel does it: a barrier, then the comparison and the enqueueing in one step. The barrier is
-/// believed as far as the word goes only; code that needs more of it is wrong here.
+/// Works like the kernel: a barrier, then the comparison and the enqueueing in one step. The barrier is modelled only for this
+/// word, so code that relies on more fails here.
 inline void Execution::sleep(std::uint32_t word, std::uint64_t expected, std::uint64_t deadline,
                              const Site& at) {
     if (!in_thread() || over()) return;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One execution: the threads, whose turn it is, who sleeps, who dies, how time passes. The accesses
-// themselves are in access.hpp.
+// One execution: its threads, whose turn it is, which threads sleep or die, and how time passes. The accesses themselves are in
+// access.hpp.
 #pragma once
 #include "tests/shm/model/checker/fiber.hpp"
 #include "tests/shm/model/checker/reduction.hpp"
@@ -26,7 +26,7 @@ class Execution {
     /// The time that a lapse takes: longer than any time-out of a scenario.
     static constexpr std::uint64_t never = std::uint64_t{1} << 62; ///< deadlines from here on do not come
     static constexpr std::uint64_t lapse = 20'000'000'000;
-    /// What pause() takes when nobody can run: a polling thread soon finds that its time to poll is over.
+    /// The time that pause() takes when no thread can run, so that a polling thread soon reaches the end of its polling time.
     static constexpr std::uint64_t idle_round = 100'000;
     static constexpr unsigned polling_rounds =
         32; ///< that a thread goes through without looking at the clock

@@ -28,7 +28,7 @@ class Context {
     Context(const Context&) = delete;
     Context& operator=(const Context&) = delete;
 
-    /// Leaves this context, which is the running one, for another; returns when somebody switches back.
+    /// Switches from this context, which is running, to another one. Returns when another context switches back.
     void switch_to(Context& other) {
         running() = &other;
 #if defined(__SANITIZE_ADDRESS__)

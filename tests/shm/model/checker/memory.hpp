@@ -134,8 +134,8 @@ class Memory {
         who.fenced = true;
     }
 
-    /// What the kernel's barrier in a wake-up does to the futex word: who goes to sleep after it sees what
-    /// the waker knows.
+    /// Models the kernel's barrier in a wake-up: a thread that goes to sleep on the futex word later sees everything that the
+    /// waker knows.
     void pass_on(const Observer& who, std::uint32_t location) {
         Index& all = locations_[location].sequential;
         all = std::max(all, who.now.seen.index[location]);

@@ -73,7 +73,7 @@ struct ModelAtomics {
             return value;
         }
 
-        /// Words that nobody touches are not known to the model.
+        /// The model knows only words that a thread has accessed.
         std::uint32_t word() const {
             if (word_ == no_location) word_ = Execution::current().add_word(word_of(initial_));
             return word_;
@@ -83,7 +83,7 @@ struct ModelAtomics {
         mutable std::uint32_t word_ = no_location;
     };
 
-    /// Of 8 bytes, so that places counted in bytes are the same ones.
+    /// Has 8 bytes, so that offsets in bytes stay the same.
     class alignas(8) Cell {
       public:
         Cell() = default;

@@ -109,8 +109,8 @@ class Reduction {
         for (const auto& clock : threads_) join(threads_[thread], clock);
     }
 
-    /// What may still sleep after the last step, given the choice that let it run and what the threads do
-    /// next.
+    /// Returns the threads that may still sleep after the last step, from the choice that selected it and the next steps of the
+    /// threads.
     Sleep sleep_after(const Node& node, const std::array<Operation, max_threads>& next) const {
         const Step& last = steps_.back();
         Sleep sleep = node.sleep;
@@ -165,9 +165,8 @@ class Reduction {
                competes_with(step, thread, operation);
     }
 
-    /// `clock`: all that the next step of `thread` depends on. Looks at what has happened since step `index`
-    /// and does not depend on it, with that next step at its end, and lets one of the threads run that can
-    /// begin it.
+    /// `clock`: all that the next step of `thread` depends on. Collects the steps since `index` that do not depend on it,
+    /// followed by the next step. Then selects a thread that can begin this sequence.
     void ask(Choices& choices, std::uint32_t index, std::size_t thread, const Clock& clock) {
         const Step& turned = steps_[index];
         Node& node = choices.node(turned.node);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whose turn it is: the second half of Execution.
+// The second half of Execution: which thread runs next.
 #pragma once
 #include "tests/shm/model/checker/execution.hpp"
 
@@ -116,7 +116,7 @@ inline std::size_t Execution::pass_time() {
     return first;
 }
 
-/// Gives the turn to whom pick() names; returns with the turn.
+/// Gives the turn to the thread that pick() selects. Returns when this thread has the turn again.
 inline void Execution::hand_on() {
     const std::size_t mine = turn_;
     const std::size_t next = starting_ ? 0 : pick();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Would the model check of the call queue notice? Every access of the shipping code is weakened or broken,
+// Checks that the model check of the call queue detects damaged code. Every access of the shipping code is weakened or broken,
 // one at a time.
 #include "tests/shm/model/mutation/mutation_check.hpp"
 #include "tests/shm/model/scenarios/call_scenarios.hpp"

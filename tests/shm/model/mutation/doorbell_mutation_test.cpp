@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Would the model check of the doorbell notice? Every access of the shipping code is weakened or broken, one
-// at a time.
+// Checks that the model check of the doorbell detects damaged code. Every access of the shipping code is weakened or broken,
+// one at a time.
 #include "tests/shm/model/mutation/mutation_check.hpp"
 #include "tests/shm/model/scenarios/doorbell_scenarios.hpp"
 
@@ -24,9 +24,9 @@ TEST_CASE("Each weakened order or removed step of the doorbell is caught or list
     check_mutations(doorbell_cases(), spared, 300, 2000);
 }
 
-// An access may be there and in order, and its result unused: here ready() has an answer for the first look
-// of a wait only, so the one between "I sleep" and the sleep is as good as removed. The first port teaches the
-// ringer that the owner looks, so that it does without the bit for the second.
+// An access may exist in the correct order although its result is unused. Here ready() works only for the first check of a
+// wait, so the check between the announcement and the sleep has no effect. With the first port the ringer notices that the
+// owner is awake, so it omits the bit for the second port.
 TEST_CASE("An owner that does not look again before it sleeps is caught") {
     const auto outcome = explore(
         [](Execution& execution) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// All the damage that can be done to the accesses of the code under test, one at a time, and whether a set of
-// scenarios catches it.
+// Damages each access of the code under test, one at a time, and checks whether a set of scenarios detects it.
 #pragma once
 #include "tests/shm/model/scenarios/case.hpp"
 
@@ -9,8 +8,8 @@
 
 namespace tandem::shm::model {
 
-/// Damage that no scenario can catch, and why that is all right. `text` is a piece of the line of source,
-/// with ^ before it its beginning.
+/// Damage that no scenario can detect, and why this is acceptable. `text` is a piece of the line of source, with ^ before it
+/// its beginning.
 struct Spared {
     const char* file;
     const char* text;

@@ -6,8 +6,8 @@
 
 namespace tandem::shm::model {
 
-/// `random`: executions per scenario and mutant; `searched`: the same of a search. TANDEM_MODEL_SIZES=1 names
-/// each mutant and the scenario that caught it; with TANDEM_STRESS those that are spared are tried, too.
+/// `random`: random executions per scenario and mutant; `searched`: executions of a search. TANDEM_MODEL_SIZES=1 names each
+/// mutant and the scenario that caught it; with TANDEM_STRESS those that are spared are tried, too.
 inline void check_mutations(std::vector<Case> cases, const std::vector<Spared>& spared, std::size_t random,
                             std::size_t searched) {
     const bool everything = test::stress(1) > 1;
@@ -20,7 +20,7 @@ inline void check_mutations(std::vector<Case> cases, const std::vector<Spared>& 
     CHECK(result.survived == std::vector<std::string>{});
     for (const auto& one : spared) {
         INFO(one.file << " `" << one.text << "` spared: " << one.why);
-        CHECK(result.used.count(&one) == 1); // what is not there any more needs no excuse
+        CHECK(result.used.count(&one) == 1); // an excuse for code that no longer exists is an error
     }
     CHECK(result.caught != 0);
 }

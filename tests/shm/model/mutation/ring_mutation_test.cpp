@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Would the model check of the ring notice? Every access of the shipping code is weakened or broken, one at a
-// time.
+// Checks that the model check of the ring detects damaged code. Every access of the shipping code is weakened or broken, one at
+// a time.
 #include "tests/shm/model/mutation/mutation_check.hpp"
 #include "tests/shm/model/scenarios/ring_scenarios.hpp"
 

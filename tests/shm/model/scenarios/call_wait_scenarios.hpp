@@ -168,8 +168,8 @@ inline std::vector<Case> call_wait_cases() {
                          },
                          Settings{.lapses = 1}});
 
-    // A thread that is about to sleep while the poller leaves, and while nobody sleeps yet, is woken neither
-    // by the poller nor, later, by a caller that still relies on the poller.
+    // The case to exclude: a thread is about to sleep while the poller leaves and no other thread sleeps yet. Neither the
+    // poller nor a later caller, which still relies on the poller, would wake it.
     for (const bool before : {true, false})
         cases.push_back({before ? "the worker that has been polling leaves while its colleague lies down"
                                 : "the worker that polls leaves while its colleague lies down",

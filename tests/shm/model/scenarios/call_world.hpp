@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A call queue in the model: what a scenario's callers and workers do, and what must hold in the end. The
-// waiting loops follow CallClient::State::await_reply and IncomingCall::State::take, which are bound to a Mapping;
-// everything that touches shared memory is the code that ships.
+// A call queue in the model: the actions of a scenario's callers and workers, and what must hold at the end. The waiting loops
+// follow CallClient::State::await_reply and IncomingCall::State::take, which are bound to a Mapping; everything that touches
+// shared memory is the code that ships.
 #pragma once
 #include "shm/call/call_caller.hpp"
 #include "shm/call/call_worker.hpp"
@@ -73,7 +73,7 @@ class CallWorld {
 
     /// The progress that the worker reports for a call.
     static double progress_of(std::uint64_t id) { return static_cast<double>(id) / 8; }
-    /// At any time it is that of this call, or nothing; and there is some when there is a reply.
+    /// The caller sees either this call's progress or none, and always some once there is a reply.
     void expect_progress(std::uint32_t id, const CallTicket& ticket) {
         const bool over = caller.replied(ticket);
         const auto share = caller.progress(ticket);
@@ -98,8 +98,8 @@ class CallWorld {
                 continue;
             }
             if (worker.waits_ended()) break;
-            // A worker that finds a call which another one is about to take repeats its search until that one
-            // has taken it.
+            // If another worker is about to take the call that this worker has found, this worker searches again until the call
+            // is taken.
             if (++fruitless > 2) A::pause();
             polling = polling || (polls && worker.try_become_poller());
             if (polling && worker.spin(A::now() + 50'000)) continue;
@@ -150,7 +150,7 @@ class CallWorld {
                                    std::to_string(static_cast<int>(end)));
     }
 
-    /// In the end: every call that was answered has run, and every slot can be had again.
+    /// Checks at the end that every answered call has run, and that every slot is free again.
     void check(const Ends& ends, bool killed = false) {
         for (const auto& [id, end] : ends) {
             if (end == End::answered) execution_.require(runs[id] == 1, "an answered call has run");

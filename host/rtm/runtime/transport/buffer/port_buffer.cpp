@@ -124,8 +124,8 @@ BufferStatus PortBuffer::reset() {
     return BufferStatus::OK;
 }
 
-/// Waits until ready() is true. The other end wakes this thread if its policy says that threads wait here; a thread that
-/// waits against the policy looks from time to time.
+/// Waits until ready() is true. The other end wakes this thread if its policy says that threads wait here; a thread that waits
+/// against the policy checks at intervals.
 template <class Ready>
 bool PortBuffer::wait(std::chrono::nanoseconds timeout, const Ready& ready) {
     constexpr auto look = 10ms;

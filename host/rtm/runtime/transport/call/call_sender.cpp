@@ -69,7 +69,7 @@ CallSender::CallSender()
 
 void CallSender::remove_name() { ::unlink(segment_.segment->path().c_str()); }
 
-// Looks every 10 ms, because a look takes a system call. A process that has ended is thus found before the call begins,
+// Checks only every 10 ms, because a check takes a system call. A process that has ended is thus found before the call begins,
 // unless it has ended just now.
 bool CallSender::is_served() {
     constexpr std::uint64_t pause_ns = 10'000'000;

@@ -22,7 +22,7 @@ constexpr std::size_t kept_threads = 2;
 // those within oneway calls, there are as many threads again.
 constexpr std::ptrdiff_t max_oneway_calls = max_shared_calls;
 constexpr std::size_t max_threads = max_shared_calls + max_oneway_calls;
-// Between two looks whether the caller of a waiting call has given up.
+// Time between two checks whether the caller of a waiting call has given up.
 constexpr std::chrono::milliseconds pause{100};
 constexpr std::chrono::seconds idle_time{1}; // after which further threads end
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Built against the headers of another Tandem: should any of its code run, it tells.
+// Built against the headers of another Tandem. Reports if any of its code runs.
 #include "another_number.hpp"
 #include "tests/host/plugin/zoo/entry.hpp"
 

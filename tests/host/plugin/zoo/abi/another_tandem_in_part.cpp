@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One object file that was built against the headers of another Tandem, among those that were not: of our headers, the one
-// by which each leaves our number.
+// One object file that was built against the headers of another Tandem, among object files that were built against ours.
 #include "another_number.hpp"
 
 #ifdef ZOO_INIT

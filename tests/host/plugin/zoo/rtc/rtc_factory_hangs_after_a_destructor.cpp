@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two types: one of which the destructor hangs, and one that cannot be made.
+// Two types: the destructor of one hangs, and the factory of the other hangs.
 #include "tests/host/plugin/zoo/rtc.hpp"
 #include <unistd.h>
 namespace {
