@@ -82,6 +82,7 @@ build_preset() {
     local preset=$1
     shift
     cd "$root"
+    export CCACHE_BASEDIR=${CCACHE_BASEDIR:-$root} # what was compiled in another clone is found
     if [ ! -f "build/$preset/build.ninja" ]; then
         say "configuring preset $preset"
         cmake --preset "$preset" "${cmake_options[@]}" >/dev/null
