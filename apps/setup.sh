@@ -18,16 +18,18 @@ describe_distribution() ( # in a subshell: the file sets many variables
 
 # install_missing_packages [GROUP]
 # Installs the packages of a group in dependencies.txt (default: [build]). Exits with one line if a package is missing
-# and neither root nor sudo can install it.
+# and neither root nor sudo can install it, and returns 1 if apt-get fails, also where a caller's `||` switches off `set -e`.
 install_missing_packages() {
-    local missing=() package group=
+    local missing=() package group= listed=no
     command -v apt-get >/dev/null ||
         { echo "apps/setup.sh: no apt-get on this system; docs/platforms.md says what is known of systems other than Debian" >&2; exit 1; }
     while read -r package _; do
         case "$package" in ''|'#'*) continue ;; '['*) group=$package; continue ;; esac
         [ "$group" = "[${1:-build}]" ] || continue
+        listed=yes
         dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")
     done < "$root/apps/dependencies.txt"
+    [ $listed = yes ] || { echo "apps/setup.sh: apps/dependencies.txt has no group [${1:-build}]" >&2; exit 1; }
     if [ ${#missing[@]} -eq 0 ]; then return; fi
     local sudo=()
     if [ "$(id -u)" -ne 0 ]; then
@@ -37,8 +39,9 @@ install_missing_packages() {
     local start=$SECONDS
     describe_distribution
     say "installing ${#missing[@]} packages: ${missing[*]}"
-    "${sudo[@]}" apt-get update -qq
-    "${sudo[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+    "${sudo[@]}" apt-get update -qq || return 1
+    "${sudo[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null ||
+        return 1
     say "installed them in $((SECONDS - start)) s"
 }
 
@@ -82,6 +85,7 @@ build_preset() {
     local preset=$1
     shift
     cd "$root"
+    export CCACHE_BASEDIR=${CCACHE_BASEDIR:-$root} # what was compiled in another clone is found
     if [ ! -f "build/$preset/build.ninja" ]; then
         say "configuring preset $preset"
         cmake --preset "$preset" "${cmake_options[@]}" >/dev/null

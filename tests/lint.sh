@@ -3,7 +3,7 @@
 # Checks what no compiler checks: clang-format on every file of ours, the arrows between rooms, the ABI numbers, and
 # clang-tidy on the files that changed.   tests/lint.sh [--all | --since COMMIT]
 # clang-tidy looks at the product files (not the tests) changed since COMMIT (default: the commit before this one, and
-# what is not committed); --all at every one, which takes half an hour.
+# what is not committed), and at one source for each changed header; --all at every source, which takes half an hour.
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/../apps/setup.sh"
 
@@ -28,13 +28,29 @@ say "includes and ABI numbers"
 python3 tests/architecture/check_includes.py .
 python3 tests/architecture/abi_number.py .
 
-product=('shm/*.cpp' 'host/*.cpp' 'proxy/*.cpp' 'plugins/*.cpp' 'apps/*.cpp')
-files=()
+# source_of_header HEADER: prints a source that includes it: what is called as it is, else one of those that include it or a
+# header of which the same is true. Prints nothing if no product source does.
+source_of_header() {
+    local users
+    if [ -f "${1%.hpp}.cpp" ]; then echo "${1%.hpp}.cpp"; return; fi
+    users=$(git grep -lF "#include \"$1\"" -- '*.cpp' ':!tests' || git grep -lF "#include \"$1\"" -- '*.hpp' ':!tests' || true)
+    users=${users%%$'\n'*}
+    case $users in *.hpp) source_of_header "$users" ;; ?*) echo "$users" ;; esac
+}
+product=('*.cpp' '*.hpp' ':!tests')
 if [ $all = yes ]; then
-    mapfile -t files < <(git ls-files "${product[@]}")
-elif git rev-parse -q --verify "$since^{commit}" >/dev/null; then
-    mapfile -t files < <(git diff --name-only --diff-filter=d "$since" -- "${product[@]}")
+    changed=$(git ls-files '*.cpp' ':!tests')
+else
+    git rev-parse -q --verify "$since^{commit}" >/dev/null ||
+        { echo "tests/lint.sh: there is no commit $since to compare with (a shallow clone?); give --since COMMIT or --all" >&2; exit 2; }
+    changed=$(git diff --name-only --diff-filter=d "$since" -- "${product[@]}")
 fi
+files=()
+for file in $changed; do
+    source=$file
+    case $file in *.hpp) source=$(source_of_header "$file") ;; esac
+    if [ -n "$source" ]; then files+=("$source"); else say "clang-tidy does not see $file, which no source of the product includes"; fi
+done
 
 # clang-tidy reads files of one library together, since their headers take most of its time.
 build=build/lint
@@ -46,13 +62,12 @@ for unit in "${compiled[@]}"; do
     unit_of[$unit]=$unit
     while read -r source; do unit_of[$source]=$unit; done < <(sed -n 's/^#include "\(.*\.cpp\)"$/\1/p' "$unit")
 done
-known=0
 declare -A units=()
 for file in "${files[@]}"; do
     unit=${unit_of[$root/$file]:-}
-    if [ -n "$unit" ]; then units[$unit]=1 known=$((known + 1)); fi
+    if [ -n "$unit" ]; then units[$unit]=1; else say "clang-tidy does not see $file, which is no part of this build"; fi
 done
-say "clang-tidy: $known of ${#files[@]} changed files are part of the build, in ${#units[@]} units"
+say "clang-tidy: ${#files[@]} changed files, in ${#units[@]} units"
 if [ ${#units[@]} -gt 0 ]; then
     printf '%s\0' "${!units[@]}" |
         xargs -0 -n 1 -P "$(nproc)" clang-tidy -p $build --quiet --checks=-bugprone-suspicious-include --warnings-as-errors='*' \

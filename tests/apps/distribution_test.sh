@@ -24,3 +24,8 @@ for program in dpkg-query apt-get sudo; do
 done
 if said=$(PATH=$stubs:$PATH "$1/tests/cross_compile.sh" 2>&1); then fail "cross_compile.sh succeeds without a compiler"; fi
 case $said in *g++-*-linux-gnu*) ;; *) fail "without a compiler, cross_compile.sh prints: $said" ;; esac
+
+# A caller that does without a group's packages hears that they are not there.
+said=$(PATH=$stubs:$PATH; (install_missing_packages machines) || say "without them")
+case $said in *'installed them'*) fail "packages that apt-get refuses count as installed: $said" ;; *'without them') ;; *) fail "printed: $said" ;; esac
+if (install_missing_packages machine) 2>/dev/null; then fail "a group that does not exist has nothing to install"; fi

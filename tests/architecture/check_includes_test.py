@@ -31,6 +31,16 @@ class Includes(unittest.TestCase):
         self.assertEqual(self.faults("shm/ring/ring.cpp", '"proxy/link/link.hpp"'),
                          ["shm/ring/ring.cpp:1: shm/ring must not include proxy/link (proxy/link/link.hpp)"])
 
+    def test_each_way_to_write_an_include_is_seen(self):
+        for header in ("<proxy/link/link.hpp>", '"../../proxy/link/link.hpp"'):
+            self.assertEqual(self.faults("shm/ring/ring.cpp", header),
+                             ["shm/ring/ring.cpp:1: shm/ring must not include proxy/link (proxy/link/link.hpp)"])
+        self.assertEqual(self.faults("shm/ring/ring.cpp", '"./ring.hpp"'), [])
+
+    def test_a_room_that_the_architecture_does_not_list_is_named(self):
+        self.assertEqual(self.faults("host/new_room/a.cpp", '"proxy/link/link.hpp"'),
+                         ["host/new_room/a.cpp: its room has no line in tests/architecture/check_includes.py"])
+
     def test_a_room_is_closed_to_the_rooms_below_it(self):
         self.assertEqual(len(self.faults("shm/os/futex.cpp", '"shm/ring/ring.hpp"')), 1)
 
@@ -55,6 +65,12 @@ class Includes(unittest.TestCase):
         self.assertEqual(list(check_includes.table_faults(page)), [])
         self.assertEqual(list(check_includes.table_faults(page.replace("`host/text`, ", ""))),
                          ["docs/architecture.md: host/log may include host/text, which the table lacks"])
+
+    def test_a_room_without_a_row_in_the_table_of_the_page_is_named(self):
+        page = (ROOT / "docs/architecture.md").read_text()
+        self.assertEqual(list(check_includes.absent_rooms(page)), [])
+        self.assertIn("docs/architecture.md: the table has no row for host/log",
+                      check_includes.absent_rooms(page.replace("| `host/log` |", "| the log |")))
 
     def test_no_room_reaches_itself_over_others(self):
         for start in check_includes.ALLOWED:

@@ -11,7 +11,9 @@ import sys
 
 SEARCHED = [".cpp", ".hpp", ".h", ".inc", ".cmake", ".txt", ".sh", ".py"]
 BENCHMARKS = ["apps/bench/", "tests/apps/bench/"]
-PROCESSOR = re.compile(r"\b_mm\w*_|rdtsc|x86_64|aarch64|\b__(i386|arm|ARM|SSE|AVX)\w*__")
+PROCESSOR = re.compile(r"\b_mm\w*_|rdtsc|x86_64|aarch64|\b__amd64|\b__(i386|arm|ARM|SSE|AVX)\w*__|"
+                       r"__builtin_ia32_|\w*intrin\.h|arm_neon\.h|"
+                       r'\b(__)?asm(__)?\s*(__)?(volatile)?(__)?\s*\(\s*"[^".]')  # an instruction, not a directive
 PROCESSOR_FILES = [
     "shm/os/processor.hpp",
     "host/crash/stack_trace.cpp",  # the program counter of a crashed thread
@@ -24,7 +26,8 @@ PROCESSOR_FILES = [
     "apps/tandem/build/packages/header_packages.txt",  # names of files in Debian's packages
     "apps/tandem/build/packages/write_table.py",
 ] + BENCHMARKS
-PAGE = re.compile(r"[Pp]age\w*(\s*=\s*|\{)(4096|0x1000)\b|\b(mmap|munmap|mprotect|madvise|msync|mincore)\(.*\b(4096|0x1000)\b")
+BYTES = r"\b(4'?096|0x1000|4 \* 1024|1 << 12)[uUlL]*\b"
+PAGE = re.compile(rf"[Pp]age\w*(\s*=\s*|\{{){BYTES}|\b(mmap|munmap|mprotect|madvise|msync|mincore)\(.*{BYTES}")
 PAGE_FILES = [
     "shm/segment/layout.hpp",  # the unit of a segment's arenas, whatever pages the kernel has
     "tests/architecture/check_processors",
