@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bounds how deep values and types of a request may nest, before two functions of omniORB 4.2 and 4.3 that do not. Each reads an
+// `any` within another one twice, so that the time doubles with each level, and a TypeCode by recursion, with a copy for each
+// level. omniORB calls them through the dynamic symbol table, which finds the definitions in this library first.
+#include <dlfcn.h>
+#include <omniORB4/CORBA.h>
+
+namespace {
+
+constexpr int most_nested_anys =
+    8; // the time is up to 2^8 times that of one any; the profiles of RTCs nest 2
+constexpr int most_type_levels = 32; // the types of OpenRTM-aist's data ports have up to 10
+
+/// Counts the calls of one function that this thread has not left; refuses one too many.
+class Level {
+  public:
+    Level(int& count, int most) : count_(count) {
+        if (count_ >= most) throw CORBA::MARSHAL(0, CORBA::COMPLETED_NO);
+        ++count_;
+    }
+    ~Level() { --count_; }
+    Level(const Level&) = delete;
+    Level& operator=(const Level&) = delete;
+
+  private:
+    int& count_;
+};
+
+template <class Function>
+Function* original(const char* symbol) {
+    return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, symbol));
+}
+
+} // namespace
+
+void CORBA::Any::operator<<=(cdrStream& stream) {
+    static auto* const read = original<void(CORBA::Any*, cdrStream&)>("_ZN5CORBA3AnylSER9cdrStream");
+    thread_local int anys = 0;
+    const Level level(anys, most_nested_anys);
+    read(this, stream);
+}
+
+namespace omni {
+
+class TypeCode_base;
+class TypeCode_offsetTable;
+
+/// A class of omniORB whose header is not installed.
+class TypeCode_marshaller {
+  public:
+    static TypeCode_base* unmarshal(cdrStream& stream, TypeCode_offsetTable* offsets);
+};
+
+TypeCode_base* TypeCode_marshaller::unmarshal(cdrStream& stream, TypeCode_offsetTable* offsets) {
+    static auto* const read = original<TypeCode_base*(cdrStream&, TypeCode_offsetTable*)>(
+        "_ZN4omni19TypeCode_marshaller9unmarshalER9cdrStreamPNS_20TypeCode_offsetTableE");
+    thread_local int levels = 0;
+    const Level level(levels, most_type_levels + 1); // the innermost is a basic type
+    return read(stream, offsets);
+}
+
+} // namespace omni
