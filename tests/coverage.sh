@@ -7,7 +7,13 @@ set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/../apps/setup.sh"
 
 least=95
-if [ "${1:-}" = --at-least ]; then least=${2:?--at-least needs a number}; fi
+while [ $# -gt 0 ]; do
+    case $1 in
+        --at-least) least=${2:?--at-least needs a number}; shift ;;
+        *) echo "tests/coverage.sh: unknown argument $1; expected --at-least PERCENT" >&2; exit 2 ;;
+    esac
+    shift
+done
 
 cd "$root"
 say "configuring and building preset coverage"
@@ -34,7 +40,7 @@ lines = collections.defaultdict(lambda: collections.defaultdict(int))
 for notes in (root / "build/coverage").rglob("*.gcno"):
     if not any(part in str(notes) for part in ("/shm/", "/tests/fault/", "/tests/fuzz/")):
         continue
-    out = subprocess.run(["gcov", "--json-format", "--stdout", str(notes)], capture_output=True, text=True,
+    out = subprocess.run(["gcov", "--json-format", "--stdout", str(notes)], stdout=subprocess.PIPE, text=True, check=True,
                          cwd=root / "build/coverage").stdout
     for text in filter(None, out.splitlines()):
         unit = json.loads(text)
@@ -51,6 +57,9 @@ for name in sorted(lines):
     total, covered = total + len(lines[name]), covered + hit
     print(f"{name:36} {hit:5} of {len(lines[name]):5} lines {100 * hit / len(lines[name]):6.1f} %",
           "  missed:" + " ".join(map(str, missed)) if missed else "")
+missing = {str(file.relative_to(root)) for file in (root / "shm").rglob("*.cpp")} - lines.keys()
+if missing:
+    sys.exit("gcov has counted no line of " + ", ".join(sorted(missing)))
 if total == 0:
     sys.exit("gcov has counted nothing; is gcov of the compiler's version installed?")
 percent = 100 * covered / total

@@ -17,7 +17,7 @@ void add_real_time_options(CLI::App& cli, RealTimeOptions& options) {
     cli.add_option(
            "--tick-spin", options.tick_spin_us,
            "Poll the last US microseconds before a tick instead of sleeping [100 while messages reach or "
-           "leave the component, at most 5 % of the period and of all such threads 10 % of a processor]")
+           "leave the component; at most 5 % of the period, and 10 % of a processor for all threads]")
         ->check(nonnegative_number());
     cli.add_option("--wait-mode", options.wait_mode,
                    "How calls wait for the other host; same-core: both hosts on the processor --cpu")

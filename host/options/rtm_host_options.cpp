@@ -24,7 +24,7 @@ std::optional<RtmHostOptions> parse_rtm_host_options(int argc, char** argv, int&
     cli.add_flag("-i", options.conf_file_may_be_missing, "ignore that the file of -f does not exist");
     cli.add_flag("-a", options.no_corba_servant, "do not offer the manager as a CORBA object");
     cli.add_option("--lockstep", options.lockstep_socket,
-                   "path of a unix socket on which a driver requests each cycle; nothing runs on timers");
+                   "path of a Unix socket at which a driver requests each cycle; nothing runs on timers");
     cli.add_option("--plugin-path", options.plugin_path,
                    "additional folder of component libraries (repeatable)")
         ->allow_extra_args(false);

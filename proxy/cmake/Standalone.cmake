@@ -4,7 +4,7 @@ set(TANDEM_OPENRTM "" CACHE STRING "`system`: build InterceptorComp for the Open
 set(TANDEM_OPROS "" CACHE PATH "build AdaptorComp for the OPRoS engine whose sources, or include folder and libOPRoSCDL, are there")
 set(TANDEM_OPROS_TYPES "" CACHE FILEPATH "header that describes more C++ types and methods to AdaptorComp, docs/real_engines.md")
 if(NOT TANDEM_OPENRTM STREQUAL "system" AND NOT TANDEM_OPROS)
-  message(FATAL_ERROR "proxy: no engine was named: TANDEM_OPENRTM=system was expected, with OpenRTM_DIR if CMake does not "
+  message(FATAL_ERROR "proxy: no engine was named: expected TANDEM_OPENRTM=system, with OpenRTM_DIR if CMake does not "
     "find it, or TANDEM_OPROS=FOLDER of an OPRoS engine. For Tandem's own hosts build the whole tree: cmake --preset release")
 endif()
 # The folders below name the tree's files by this.

@@ -2,7 +2,7 @@
 # tandem_rtm as an OpenRTM-aist 2.x that is installed. Its configuration file gives compiler flags as texts.
 find_package(OpenRTM REQUIRED)
 if(OPENRTM_VERSION VERSION_LESS 2.0)
-  message(FATAL_ERROR "OpenRTM-aist ${OPENRTM_VERSION} in ${OpenRTM_DIR}: 2.0 or newer was expected, whose ports have messages "
+  message(FATAL_ERROR "OpenRTM-aist ${OPENRTM_VERSION} in ${OpenRTM_DIR}: expected 2.0 or newer, whose ports have messages "
     "as bytes; build with -DOpenRTM_DIR=FOLDER of OpenRTMConfig.cmake of a newer one")
 endif()
 # Signatures of IDL types and operations are found without the engine.

@@ -27,11 +27,11 @@ class OperationParser {
             const Direction direction = parse_direction();
             operation.arguments.push_back({direction, parse_next_type(text_, position_)});
         }
-        expect(':', "'arguments:result' was expected");
+        expect(':', "expected 'arguments:result'");
         if (!at_end() && next() != ' ') operation.result = parse_next_type(text_, position_);
         if (skip(oneway_clause)) operation.oneway = true;
         if (skip(raises_clause)) parse_exceptions(operation.exceptions);
-        if (!at_end()) fail("its end was expected");
+        if (!at_end()) fail("expected its end");
         return operation;
     }
 
@@ -50,7 +50,7 @@ class OperationParser {
 
     // ` ID({name}T{name}T)`
     ExceptionType parse_exception() {
-        expect(' ', "an exception was expected");
+        expect(' ', "expected an exception");
         const auto end = text_.find('(', position_);
         if (end == std::string_view::npos) fail("'(' is missing");
         ExceptionType exception{std::string(text_.substr(position_, end - position_)), {}};

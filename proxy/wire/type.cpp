@@ -35,7 +35,7 @@ class Parser {
     Type parse_type(int depth) {
         if (depth > max_depth) fail("nesting is deeper than 32");
         if (++parts_ > max_parts) fail("it has more than 65536 parts");
-        if (position_ == text_.size()) fail("it ends where a type was expected");
+        if (position_ == text_.size()) fail("it ends, expected a type");
         const char code = text_[position_++];
         switch (code) {
         case 'a': {
@@ -109,7 +109,7 @@ class Parser {
             if (!skip_char('*')) do
                     labels.push_back(parse_label());
                 while (skip_char(','));
-            if (!skip_char('=')) fail("'=' was expected behind the labels of a union's case");
+            if (!skip_char('=')) fail("expected '=' behind the labels of a union's case");
             Type member = parse_member(depth + 1);
             member.labels = std::move(labels);
             add_member(type, std::move(member));
@@ -121,7 +121,7 @@ class Parser {
 
     Type parse_fixed() {
         Type type{Kind::fixed, parse_number(max_digits), {}};
-        if (!skip_char(',')) fail("'Fdigits,scale' was expected");
+        if (!skip_char(',')) fail("expected 'Fdigits,scale'");
         type.scale = parse_number(max_digits);
         if (type.count == 0 || type.scale > type.count) fail("a fixed has 1 to 31 digits");
         return type;
@@ -133,8 +133,7 @@ class Parser {
         std::uint64_t value = 0; // from INT64_MIN to UINT64_MAX
         const auto* begin = text_.data() + position_;
         const auto [end, error] = std::from_chars(begin, text_.data() + text_.size(), value);
-        if (error != std::errc() || (negative && value > std::uint64_t{1} << 63))
-            fail("a number was expected");
+        if (error != std::errc() || (negative && value > std::uint64_t{1} << 63)) fail("expected a number");
         position_ += static_cast<std::size_t>(end - begin);
         return static_cast<std::int64_t>(negative ? 0 - value : value);
     }
@@ -153,7 +152,7 @@ class Parser {
     std::uint32_t parse_number(std::uint32_t max) {
         std::uint64_t number = 0;
         if (position_ == text_.size() || text_[position_] < '0' || text_[position_] > '9')
-            fail("a number was expected");
+            fail("expected a number");
         while (position_ < text_.size() && text_[position_] >= '0' && text_[position_] <= '9') {
             number = number * 10 + static_cast<std::uint64_t>(text_[position_++] - '0');
             if (number > max) fail(fmt::format("the number is above {}", max));
@@ -169,7 +168,7 @@ class Parser {
 
     std::uint32_t parse_array_count() {
         const std::uint32_t count = parse_number(max_array);
-        if (count == 0 || !skip_char(']')) fail("'[N]' was expected");
+        if (count == 0 || !skip_char(']')) fail("expected '[N]'");
         return count;
     }
 

@@ -58,6 +58,12 @@ class Pages(unittest.TestCase):
         self.assertIn("docs/page.md:2: not run, no reason: false", output)
         self.assertIn("1 blocks were run", output)
 
+    def test_a_page_without_a_command_that_is_to_be_run_is_refused(self):
+        self.page("```sh\necho one\n```\n", "lines echo two")
+        code, output = self.run_page()
+        self.assertEqual(code, 1)
+        self.assertIn("docs/page.md: has no command of those that", output)
+
     def test_output_that_does_not_come_is_named(self):
         self.page("```sh\necho one\n```\n\n```\none\ntwo\n```\n", "sh")
         code, output = self.run_page()

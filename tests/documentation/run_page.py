@@ -108,6 +108,9 @@ def check(parts, code, text):
 
 def main(root, page, bin_dir, seconds="240"):
     parts = parts_of(root, page)
+    if not parts:
+        print(f"{page}: has no command of those that tests/documentation/pages.py says to run")
+        return 1
     with tempfile.TemporaryDirectory(prefix="tandem-page-") as scratch:
         folder = pathlib.Path(scratch) / "here"
         folder.mkdir()

@@ -52,7 +52,7 @@ TEST_CASE("tandem shm shows what the killed have left and does not remove it") {
     CHECK(link.files().size() == 1);
 }
 
-TEST_CASE("a segment that somebody lives in, and a file that is no segment, stay") {
+TEST_CASE("a segment in use, and a file that is not a segment, are not removed") {
     const Link living, dead, other;
     const auto segment = join(living, Side::first);
     kill_both_sides(dead);

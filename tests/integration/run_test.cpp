@@ -176,7 +176,7 @@ TEST_CASE("tandem run continues if its log cannot be written, and reports the nu
     CHECK_FALSE(run.left_in_shared_memory());
 }
 
-TEST_CASE("a component that prints goes on while nobody reads the output of tandem run, which counts the "
+TEST_CASE("a component that prints continues while the output of tandem run is not read, which counts the "
           "lost lines") {
     Run run;
     const auto folder = run.folder().path() / "joined";
@@ -251,7 +251,7 @@ TEST_CASE("tandem run names a component that has not started beside `all hosts a
     CHECK(run.exit_code() == 0);
 }
 
-TEST_CASE("hosts end in order when tandem run is killed, although nobody reads their output any more") {
+TEST_CASE("hosts end in order when tandem run is killed, although their output is no longer read") {
     Run run;
     run.start();
     REQUIRE(run.says("all hosts are ready"));

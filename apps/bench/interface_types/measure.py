@@ -62,7 +62,7 @@ def other_engine(prefix, folder):
     program = next((p for p in programs if p.exists()), None)
     config = next((c for c in configs if c.exists()), None)
     if not program or not config:
-        fail(f"{prefix} has no OpenRTM-aist 2.x: bin/rtcd2 and bin/rtm2-config were expected")
+        fail(f"{prefix} has no OpenRTM-aist 2.x: expected bin/rtcd2 and bin/rtm2-config")
     flags = subprocess.run([config, "--cflags"], check=True, capture_output=True, text=True).stdout.split()
     command = ["g++", "-std=c++17", "-O2", "-fPIC", "-shared", "-w", *flags, HERE / "InterfaceTypes.cpp", "-o", folder / "InterfaceTypes.so"]
     if subprocess.run(command).returncode != 0:

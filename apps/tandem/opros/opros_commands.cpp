@@ -75,10 +75,9 @@ void add_opros_build(CLI::App& opros, Action& selected) {
     CLI::App* command = add_command(
         opros, "build", "Builds a component from the sources in its folder",
         "Builds the sources in DIR and DIR/src, or those that its CMakeLists.txt, makefile or Visual C++\n"
-        "project lists. Configures a CMake project to do so, which executes its CMake code. The component\n"
-        "profile in DIR, DIR/profile or the folder above gives the plugin its name. Writes the plugin "
-        "beside\n"
-        "the profile and changes nothing else. Exit code 1 if the build fails.");
+        "project lists. If DIR has a CMake project, configures it, which executes its CMake code. The\n"
+        "component profile in DIR, DIR/profile or the folder above gives the plugin its name. Writes the\n"
+        "plugin beside the profile and changes nothing else. Exit code 1 if the build fails.");
     add_build_options(command, *options,
                       "folder for the plugin and its profiles (the folder of the profile)");
     command

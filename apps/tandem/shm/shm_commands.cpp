@@ -53,8 +53,10 @@ constexpr CommandHelp stats_help{
     "  in use       slots of calls in progress\n"
     "A call in progress is waiting for a worker, running, or still running after its caller abandoned it.\n"
     "Its progress is reported by the component that executes it (share/doc/tandem/docs/joining.md).\n"
-    "Times are measured on a sample of the records and calls. Age is the time from writing to reading a\n"
-    "record, round trip the time from a call to its reply at the caller, service the server's share of it.\n"
+    "Times are measured on a sample of the records and calls:\n"
+    "  age          from writing to reading a record\n"
+    "  round trip   from a call to its reply, at the caller\n"
+    "  service      the part of the round trip that the server takes\n"
     "Times are counted in buckets. A percentile is the upper end of its bucket, at most 25 % too high.\n"
     "Counters are read one after the other: the sum above is exact only while nothing is sent or received.\n"
     "Exit code 1 if the segment does not exist or cannot be read."};

@@ -49,7 +49,7 @@ void add_save(CLI::App& system, Action& selected) {
     command->add_option("DIR", options->folder, "folder to write")->required();
     command
         ->add_option("--host", options->hosts,
-                     "host to save, one of each model (the only ones of this user; repeatable)")
+                     "process id of a host to save, one of each model (this user's only ones; repeatable)")
         ->type_name("PID")
         ->allow_extra_args(false);
     command->add_flag(

@@ -16,7 +16,7 @@ std::map<std::string, std::string> read_name_pairs(const std::string& property, 
         const auto equals = entry.find('=');
         if (equals == std::string::npos || equals == 0 || equals + 1 == entry.size())
             throw std::runtime_error(
-                fmt::format("property '{}': '{}' was found, {} was expected", property, entry, form));
+                fmt::format("property '{}': '{}' is not valid: expected {}", property, entry, form));
         pairs[entry.substr(0, equals)] = entry.substr(equals + 1);
     }
     return pairs;

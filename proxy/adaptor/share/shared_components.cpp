@@ -184,7 +184,7 @@ void SharedComponents::report(SharedComponent& component) {
                 .status == CallStatus::ok)
             return;
     if (link_->is_up())
-        log::error("{}: the RTM side was not told the state of {}: no reply within {} ms; property "
+        log::error("{}: the RTM side did not get the state of {}: no reply within {} ms; property "
                    "'call_timeout' allows more",
                    owner_, component.name(), control::command_timeout(call_timeout_).count());
 }

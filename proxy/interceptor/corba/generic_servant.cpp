@@ -146,8 +146,7 @@ bool GenericServant::call_from_here(omniCallDescriptor& call) {
     if (!operation) return false;
     try {
         execute(*operation, call);
-    } catch (const std::
-                 exception&) { // out of memory, for instance; as the ORB does with what is no CORBA exception
+    } catch (const std::exception&) { // for example out of memory; the ORB converts it in the same way
         throw CORBA::UNKNOWN(0, CORBA::COMPLETED_MAYBE);
     }
     return true;

@@ -117,7 +117,7 @@ void object_from_cdr(wire::CdrReader& from, cdrStream& to) {
     if (!from.ok()) throw_marshal();
     if (!text.empty() && text.rfind("IOR:", 0) != 0)
         throw RefusedValue(
-            fmt::format("'{}' is no object reference: 'IOR:...' was expected", text.substr(0, 40)));
+            fmt::format("'{}' is not an object reference: expected 'IOR:...'", text.substr(0, 40)));
     const CORBA::Object_var object =
         text.empty() ? CORBA::Object::_nil() : process_orb()->string_to_object(text.c_str());
     CORBA::Object::_marshalObjRef(object, to);
@@ -125,7 +125,7 @@ void object_from_cdr(wire::CdrReader& from, cdrStream& to) {
 
 void check_enumerator(const Type& type, std::int64_t value) {
     if (type.count != 0 && value >= type.count)
-        throw RefusedValue(fmt::format("{} is no value of an enumeration of {}", value, type.count));
+        throw RefusedValue(fmt::format("{} is not a value of an enumeration of {}", value, type.count));
 }
 
 template <class T>

@@ -92,7 +92,7 @@ std::string RtcTransitions::transition_and_wait(const Transition& transition) {
             if (result != RTC::PRECONDITION_NOT_MET || std::chrono::steady_clock::now() >= deadline) break;
             std::this_thread::sleep_for(pause_);
         }
-        return fmt::format("{} is {}, {} was expected, and it was not {}: its context answers {}", name_,
+        return fmt::format("{} is {} instead of {}, and it was not {}: its context answers {}", name_,
                            name_of(state()), name_of(transition.from), transition.verb,
                            static_cast<int>(result));
     } catch (const CORBA::Exception& error) { // the RTC or its context has left

@@ -19,7 +19,7 @@ coil::Properties properties_of(const Strings& arguments) {
         const auto& text = arguments[i];
         const auto equals = text.find('=');
         if (equals == std::string::npos || equals == 0)
-            throw OperationFailed(fmt::format("connection property '{}': KEY=VALUE was expected", text));
+            throw OperationFailed(fmt::format("connection property '{}': expected KEY=VALUE", text));
         const std::string key = text.substr(0, equals);
         properties.setProperty(key.find('.') == std::string::npos ? "dataport." + key : key,
                                text.substr(equals + 1));

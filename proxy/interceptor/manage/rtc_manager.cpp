@@ -16,7 +16,7 @@ using Strings = BuiltInService::Strings;
 /// The manager at `HOST:PORT`, by the well-known key of OpenRTM-aist's managers.
 RTM::Manager_var find_manager(RTC::Manager& manager, const std::string& address) {
     CORBA::ORB_var orb = manager.getORB();
-    std::string reason = "HOST:PORT was expected";
+    std::string reason = "expected HOST:PORT";
     RTM::Manager_var found;
     try {
         CORBA::Object_var object = orb->string_to_object(("corbaloc:iiop:" + address + "/manager").c_str());

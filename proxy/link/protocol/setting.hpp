@@ -17,8 +17,8 @@ inline double parse_positive_number(const char* kind, const std::string& name, c
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size() || !(value > 0 && value < 1e6))
-        throw std::runtime_error(fmt::format(
-            "{} '{}' is '{}', a number above 0 and below 1000000 was expected", kind, name, text));
+        throw std::runtime_error(
+            fmt::format("{} '{}' is '{}': expected a number above 0 and below 1000000", kind, name, text));
     return value;
 }
 
@@ -29,7 +29,7 @@ inline bool parse_flag(const char* kind, const std::string& name, const std::str
     for (const char c : text) lower += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
     if (lower.empty() || lower == "0" || lower == "false" || lower == "no") return false;
     if (lower == "1" || lower == "true" || lower == "yes") return true;
-    throw std::runtime_error(fmt::format("{} '{}' is '{}', 0 or 1 was expected", kind, name, text));
+    throw std::runtime_error(fmt::format("{} '{}' is '{}': expected 0 or 1", kind, name, text));
 }
 
 } // namespace tandem::link

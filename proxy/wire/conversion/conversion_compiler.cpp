@@ -199,9 +199,8 @@ ConversionStep::Extent ConversionCompiler::make_extent(const Rule& rule, std::ve
     for (const std::string& name : rule.extent) {
         Field& source = find_named(name, sources);
         if (!is_whole_number(source.type.kind))
-            throw ConversionError(fmt::format("'{}: ... {}': {} is {}, a whole number was expected",
-                                              rule.target, fmt::join(rule.extent, " "), name,
-                                              type_name(source.type)));
+            throw ConversionError(fmt::format("'{}: ... {}': {} is {}: expected a whole number", rule.target,
+                                              fmt::join(rule.extent, " "), name, type_name(source.type)));
         source.used = true;
         extent.slots.push_back(static_cast<std::size_t>(&source - sources.data()));
         extent.kinds.push_back(source.type.kind);

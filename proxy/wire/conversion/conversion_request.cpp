@@ -62,7 +62,7 @@ double parse_factor(std::string_view item, std::string_view text) {
         double factor = 0;
         const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), factor);
         if (error != std::errc() || end != number.data() + number.size() || factor == 0)
-            fail(item, "a number other than 0 was expected behind '*'");
+            fail(item, "expected a number other than 0 behind '*'");
         return factor;
     }
     const auto arrow = text.find("->");
@@ -102,7 +102,7 @@ std::vector<std::string> split_words(std::string_view text) {
 ConversionRequest::Rule parse_rule(std::string_view item, std::string_view target, std::string_view text) {
     ConversionRequest::Rule rule;
     rule.target = trimmed(target);
-    if (rule.target.empty()) fail(item, "a field was expected before ':'");
+    if (rule.target.empty()) fail(item, "expected a field before ':'");
     if (take_word(text, "default")) {
         rule.constant = std::string(text);
         return rule;
@@ -111,12 +111,12 @@ ConversionRequest::Rule parse_rule(std::string_view item, std::string_view targe
     if (rule.count || take_word(text, "from")) {
         const auto end = text.find_first_of(" \t");
         rule.source = text.substr(0, end);
-        if (rule.source.empty()) fail(item, "the sender's field was expected");
+        if (rule.source.empty()) fail(item, "expected the sender's field");
         text = end == std::string_view::npos ? std::string_view() : trimmed(text.substr(end));
         if (text.empty()) return rule;
         if (take_word(text, rule.count ? "per" : "first")) {
             rule.extent = split_words(text);
-            if (rule.extent.empty()) fail(item, "fields of the sender were expected at the end");
+            if (rule.extent.empty()) fail(item, "expected fields of the sender at the end");
             return rule;
         }
     }
@@ -128,8 +128,7 @@ ConversionRequest::Refusal parse_refusal(std::string_view item, std::string_view
     auto words = split_words(text);
     const bool unless = words.size() > 1 && words[1] == "unless";
     const std::size_t first = unless ? 2 : 1;
-    if (words.size() <= first)
-        fail(item, "the sender's field and a word or number were expected behind 'refuse'");
+    if (words.size() <= first) fail(item, "expected the sender's field and a word or number behind 'refuse'");
     ConversionRequest::Refusal refusal{words.front(), {}, unless};
     refusal.words.assign(words.begin() + static_cast<std::ptrdiff_t>(first), words.end());
     return refusal;

@@ -54,5 +54,5 @@ TEST_CASE("The comparison of interface types refuses what it cannot measure in o
     const auto no_openrtm = measure({"--openrtm", "/nonexistent"});
     CHECK(no_openrtm.exit_code() == 1);
     CHECK(no_openrtm.errors ==
-          "measure.py: /nonexistent has no OpenRTM-aist 2.x: bin/rtcd2 and bin/rtm2-config were expected\n");
+          "measure.py: /nonexistent has no OpenRTM-aist 2.x: expected bin/rtcd2 and bin/rtm2-config\n");
 }

@@ -34,7 +34,7 @@ Report measured(std::vector<Case> cases, double timeout = 10) {
 
 } // namespace
 
-TEST_CASE("Every case has a name of its own and the cases with one comparison key are neighbours") {
+TEST_CASE("Every case has a unique name and the cases with one comparison key are neighbours") {
     const Registry registry = all_cases();
     std::set<std::string> ids, closed;
     std::string key;

@@ -47,7 +47,7 @@ TEST_CASE("A summary of no samples is zero") {
     CHECK(s.curve.empty());
 }
 
-TEST_CASE("The median of runs is taken percentile by percentile and the maximum is the largest") {
+TEST_CASE("The summary of several runs has the median of each percentile and the largest maximum") {
     const Summary s = median_of({summarize({1, 1, 1}), summarize({3, 3, 50}), summarize({9, 9, 9})});
     CHECK(s.samples == 9);
     CHECK(s.p50 == 3);

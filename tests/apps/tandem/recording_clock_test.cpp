@@ -115,7 +115,7 @@ TEST_CASE("a recording has both clocks at its start") {
         CHECK(attachment.attachment.log_time > 1'500'000'000'000'000'000);
 }
 
-TEST_CASE("a slow change of the wall clock is no step") {
+TEST_CASE("a slow change of the wall clock is not a step") {
     WallClock wall;
     RecordingClock clock = wall.clock();
     CHECK(clock.take_step() == 0);

@@ -115,7 +115,7 @@ TEST_CASE("the tables are repeated without disturbed samples") {
     CHECK_THAT(second, Catch::Contains("     199         1\n"));
 }
 
-TEST_CASE("a thread that nobody keeps from its core has not waited for it") {
+TEST_CASE("a thread whose core is free has not waited for it") {
     CoreWait wait;
     CHECK(wait.seconds_since_last_call() == 0);
     CHECK_FALSE(wait.seconds_since_last_call() < 0);

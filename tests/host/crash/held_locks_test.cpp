@@ -174,7 +174,7 @@ TEST_CASE("a process whose main thread has ended gives up its locks before the s
     std::fclose(stream);
 }
 
-TEST_CASE("a process that crashes keeps its locks while its other threads run and nobody reads its report") {
+TEST_CASE("a process that crashes keeps its locks while its other threads run and its report is not read") {
     std::FILE* const stream = std::tmpfile();
     REQUIRE(stream != nullptr);
     const int file = fileno(stream);

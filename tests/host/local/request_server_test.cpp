@@ -137,8 +137,8 @@ TEST_CASE("a process with a full queue of connections is alive, and does not ans
     ::unlink(socket.c_str());
 }
 
-TEST_CASE(
-    "a client that announces too much is cut off, and one that leaves or says nothing disturbs nobody") {
+TEST_CASE("a client that announces too much is cut off, and one that leaves or sends nothing disturbs no "
+          "other client") {
     const Scene scene;
     const auto silent = scene.connect();
     { const auto leaves = scene.connect(); }
@@ -161,7 +161,8 @@ TEST_CASE("the socket is only this user's, and gone with its server") {
     CHECK_THROWS_AS(send_request(scene.socket, "next", long_enough), NobodyListens);
 }
 
-TEST_CASE("the socket of a killed process accepts nobody, also while its child lives, and is removed") {
+TEST_CASE(
+    "the socket of a killed process accepts no connection, also while its child lives, and is removed") {
     int started[2];
     REQUIRE(::pipe(started) == 0);
     const pid_t host = ::fork();

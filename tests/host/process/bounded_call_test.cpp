@@ -18,7 +18,7 @@ TEST_CASE("a call that returns in time has run, in another thread") {
     CHECK_FALSE(BoundedCall::any_running());
 }
 
-TEST_CASE("what a call throws in time is thrown at the caller") {
+TEST_CASE("what a call throws in time is rethrown in the caller") {
     CHECK_THROWS_WITH(BoundedCall::returns_within(30s, [] { throw std::runtime_error("reason"); }), "reason");
     CHECK_FALSE(BoundedCall::any_running());
 }
@@ -77,7 +77,7 @@ TEST_CASE("a series goes on without a call that takes too long, if its caller wa
           (goes_on ? 1 : 0)); // the call that was left behind is the last one of its thread
 }
 
-TEST_CASE("an exception ends a series and is thrown at the caller") {
+TEST_CASE("an exception ends a series and is rethrown in the caller") {
     int calls = 0;
     CHECK_THROWS_WITH(
         BoundedCall::run_series({3,

@@ -88,7 +88,7 @@ TEST_CASE("the lines of a cycle have a limit, and only a rehearsal that collects
     CHECK(lines.count() == 0);
 }
 
-TEST_CASE("a shared tick rehearses its cycle once in 64, and its cycles are no rehearsals") {
+TEST_CASE("a shared tick rehearses its cycle once in 64 rounds, and its cycles are not rehearsals") {
     std::atomic<int> cycles{0}, rehearsals{0}, wrong{0}, too_early{0};
     std::int64_t rehearsed = 0;
     const auto is_rehearsal = [] {

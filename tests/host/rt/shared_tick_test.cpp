@@ -166,7 +166,7 @@ TEST_CASE("a cycle that hangs after its tick has left keeps no neighbour from ru
     hangs = false;
 }
 
-TEST_CASE("no cycle begins after leave(), and one that leaves in itself is the last one") {
+TEST_CASE("no cycle begins after leave(), and a cycle that calls leave() is the last one") {
     Cell cell(1ms);
     REQUIRE(cell.reaches(3));
     CHECK(cell.tick->leave(1h));

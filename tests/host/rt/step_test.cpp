@@ -84,7 +84,7 @@ TEST_CASE("the socket is for its owner only, and a stale one is replaced") {
                       Catch::Contains("another process listens"));
 }
 
-TEST_CASE("a path that is no socket is left alone") {
+TEST_CASE("a path that is not a socket is left alone") {
     const auto path = socket_path();
     std::ofstream(path) << "text";
     CHECK_THROWS_AS(StepServer(path, [](const std::string&) {}), std::runtime_error);

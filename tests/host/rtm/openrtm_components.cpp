@@ -94,7 +94,7 @@ class OpenRtmConfiguration : public SDOPackage::Configuration_impl {
     std::atomic<bool> has_active_set_{true};
 };
 
-/// Takes `step` over from an active set only, and prints what it uses: `uses step N`. Its sets are default and other; that
+/// Uses `step` only from an active set, and prints the value that it uses: `uses step N`. Its sets are default and other; that
 /// `size` is an int is said by a set of its own, as RTCBuilder writes it.
 class ConfigurationUser : public RTC::DataFlowComponentBase {
   public:

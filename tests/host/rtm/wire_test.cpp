@@ -134,7 +134,7 @@ TEST_CASE("A listener to values hears numbers of each size in either byte order,
     check_listener<RTC::TimedDoubleSeq>(length);
 }
 
-TEST_CASE("A listener to values hears nothing of bytes that are no value") {
+TEST_CASE("A listener to values is not called for bytes that are not a value") {
     RTC::TimedDoubleSeq data;
     data.tm.sec = data.tm.nsec = 0;
     data.data.length(3);

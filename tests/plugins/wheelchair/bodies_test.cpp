@@ -156,7 +156,7 @@ TEST_CASE("a deactivated ControlComp leaves no voltage and the brake behind") {
     CHECK(run.wires.last_voltage.brake);
 }
 
-TEST_CASE("ages count from ControlComp's first tick, so a late start is no fault") {
+TEST_CASE("ages count from ControlComp's first tick, so a late start is not a fault") {
     Wires wires;
     ControlBody control(read_settings({}));
     wires.send(Stamped<JoystickPosition>{}, Stamped<WheelSpeed>{0.0, 0, {}}); // published long ago

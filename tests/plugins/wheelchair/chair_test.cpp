@@ -62,7 +62,7 @@ TEST_CASE("a forced stop overrules a fresh voltage in the same tick") {
     CHECK_FALSE(stopped(chair));
 }
 
-TEST_CASE("a voltage that is no number stops the chair") {
+TEST_CASE("a voltage that is not a number stops the chair") {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     Chair chair = driving(100);
     chair.apply(1.0, Stamped<Voltage>{1.0, 100, {nan, 6.0, false}}, false);

@@ -41,7 +41,7 @@ TEST_CASE("a live stick is read as it was written, in whole counts within its en
     CHECK(reader.read().emergency_stop);
 }
 
-TEST_CASE("a live stick that nobody writes is released after 200 ms") {
+TEST_CASE("a live stick without new positions is released after 200 ms") {
     const StickPath file;
     LiveStick writer(file.path, LiveStick::Role::writer);
     const LiveStick reader(file.path, LiveStick::Role::reader);

@@ -378,7 +378,7 @@ TEST_CASE("an adaptor without a link name, or with an invalid number, does not i
     adaptor::AdaptorComp nameless;
     CHECK(nameless.initialize() != OPROS_SUCCESS);
     CHECK_THROWS_WITH(adaptor::read_settings({{"link", "x"}, {"wait", "ten"}}),
-                      "property 'wait' is 'ten', a number above 0 and below 1000000 was expected");
+                      "property 'wait' is 'ten': expected a number above 0 and below 1000000");
     CHECK_THROWS_WITH(adaptor::read_settings({{"link", "x"}, {"operations.books", "pages=Q:i"}}),
                       Catch::Contains("property 'operations.books': operation 'pages': "));
     CHECK_THROWS_WITH(adaptor::read_settings({{"link", "x"}, {"operations.books", "pages"}}),

@@ -123,5 +123,5 @@ TEST_CASE("a port whose methods have other names is refused with names that fit"
                                "them is meant") &&
                    Catch::Contains("operation 'halt': the connected port has no such method"));
     CHECK_THROWS_WITH(adaptor::PeerNames("names.greeter", "print"),
-                      "property 'names.greeter': 'print' was found, OPROS_NAME=RTC_NAME was expected");
+                      "property 'names.greeter': 'print' is not valid: expected OPROS_NAME=RTC_NAME");
 }

@@ -61,7 +61,8 @@ TEST_CASE("a caller whose values cannot cross learns whether the call has run, a
     for (int i = 0; i < 2; ++i)
         CHECK(completed_by([&] { TestChair::Seats_var(stub->rename(seats, "x")); }) == CORBA::COMPLETED_NO);
     CHECK(target.calls == 2);
-    CHECK_THAT(target.refused, Catch::Contains("rename: an argument: 2 is no value of an enumeration of 1"));
+    CHECK_THAT(target.refused,
+               Catch::Contains("rename: an argument: 2 is not a value of an enumeration of 1"));
     orb.poa->deactivate_object(id);
 }
 

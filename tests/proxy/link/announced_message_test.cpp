@@ -67,7 +67,7 @@ TEST_CASE("a message that was not announced is lost with the peer") {
     CHECK_FALSE(receive(ends.reader));
 }
 
-TEST_CASE("a port whose messages nobody has ever read counts none as lost with the peer") {
+TEST_CASE("a port whose messages were never read counts none as lost with the peer") {
     Ends ends;
     Generation generation(ends.writer, ends.reader);
     for (const double value : {1.0, 2.0}) REQUIRE(send(ends.writer, value));

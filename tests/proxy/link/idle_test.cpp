@@ -97,8 +97,7 @@ TEST_CASE("a message sent before the peer rings for its port is noticed when the
     CHECK(eventually([&] { return link.arrivals == 1; }));
 }
 
-TEST_CASE(
-    "a ring that another process damages while nobody uses it takes the link down with the next message") {
+TEST_CASE("a ring that another process damages while it is idle takes the link down with the next message") {
     IdleLink link("damaged");
     const std::string path = shm::segment_path(link.name, shm::list_generations(link.name).at(0));
     {

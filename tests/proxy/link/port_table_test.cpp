@@ -138,7 +138,7 @@ TEST_CASE("whatever its ids and its length are, a request stays within its bytes
     CHECK(decode_request(without_ids));
 }
 
-TEST_CASE("bytes that are no request are recognized") {
+TEST_CASE("bytes that are not a request are recognized") {
     std::vector<std::byte> bytes;
     wire::CdrWriter out(bytes);
     encode(Request{"chair", "limits", ":ad", {}}, out);

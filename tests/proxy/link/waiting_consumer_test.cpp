@@ -124,7 +124,7 @@ TEST_CASE("a message for a consumer that waits in its own thread wakes this thre
     CHECK(consumer.told == told);
 }
 
-TEST_CASE("a consumer is told once about messages that came while it did not wait") {
+TEST_CASE("a consumer is notified once about messages that arrived while it did not wait") {
     Scene scene("busy");
     scene.side->link.set_arrival_listener(
         scene.side->link.reader("left"), [] {}, &scene);
@@ -149,8 +149,9 @@ TEST_CASE("wake_consumer ends a consumer's wait, even before the wait begins") {
     }
 }
 
-TEST_CASE("while several consumers listen the notifier tells them all, afterwards the one that is left waits "
-          "itself") {
+TEST_CASE(
+    "while several consumers listen the notifier notifies them all, afterwards the one that is left waits "
+    "itself") {
     Scene scene("several");
     Consumer first(scene.side->link, {"left"});
     scene.ask_for_rings();

@@ -174,7 +174,7 @@ TEST_CASE("a request that is not understood is reported") {
     for (const auto& [text, what] : {std::pair{"widen; bigger", "'bigger'"},
                                      {"a: deg->m", "deg is a unit of angle"},
                                      {"a: parsec->m", "'parsec' is not a unit"},
-                                     {": default 1", "a field was expected"},
+                                     {": default 1", "expected a field"},
                                      {"a: * 0", "other than 0"},
                                      {"a: from", "the sender's field"},
                                      {"a: twice", "deg->rad"}})
@@ -341,12 +341,12 @@ TEST_CASE("fields used for counting or refusal must exist and have a suitable ty
         return std::string();
     };
     CHECK_THAT(error("{cells}ay", "cells: from cells first rows; drop format"), Contains("no field 'rows'"));
-    CHECK_THAT(error("{cells}ay", "cells: from cells first format"), Contains("a whole number was expected"));
+    CHECK_THAT(error("{cells}ay", "cells: from cells first format"), Contains("expected a whole number"));
     CHECK_THAT(error("{width}i", "width: from width first height"), Contains("needs a sequence"));
-    CHECK_THAT(error("{cells}ay", "cells: from cells first"), Contains("fields of the sender were expected"));
-    CHECK_THAT(error("{n}i", "n: count cells per"), Contains("fields of the sender were expected"));
+    CHECK_THAT(error("{cells}ay", "cells: from cells first"), Contains("expected fields of the sender"));
+    CHECK_THAT(error("{n}i", "n: count cells per"), Contains("expected fields of the sender"));
     CHECK_THAT(error("{cells}ay", "refuse name jpeg; cells: from cells"), Contains("no field 'name'"));
     CHECK_THAT(error("{cells}ay", "refuse cells 1; cells: from cells"), Contains("needs a string"));
-    CHECK_THAT(error("{cells}ay", "refuse format unless"), Contains("a word or number were expected"));
-    CHECK_THAT(error("{cells}ay", "refuse format"), Contains("a word or number were expected"));
+    CHECK_THAT(error("{cells}ay", "refuse format unless"), Contains("a word or number behind 'refuse'"));
+    CHECK_THAT(error("{cells}ay", "refuse format"), Contains("a word or number behind 'refuse'"));
 }

@@ -38,7 +38,7 @@ struct ControlledPair : Pair {
 
 } // namespace
 
-TEST_CASE("a caller that cancels gets its error while the worker still runs and the worker is told") {
+TEST_CASE("a caller that cancels gets its error while the worker still runs and the worker is notified") {
     ControlledPair calls(1);
     Wishes wishes;
     auto caller = calls.call(wishes, 300s);
@@ -66,7 +66,7 @@ TEST_CASE("a call that is cancelled before a worker takes it never runs") {
     CHECK(calls.client.counters().taken == 0);
 }
 
-TEST_CASE("a worker is told when the deadline of its caller has passed") {
+TEST_CASE("a worker is notified when the deadline of its caller has passed") {
     ControlledPair calls;
     Wishes wishes;
     wishes.max_ns = 1;
@@ -89,7 +89,7 @@ TEST_CASE("a call may be allowed to run longer than the time in which it must st
     CHECK(caller.get().text() == "done");
 }
 
-TEST_CASE("a worker is told when its queue is shut down") {
+TEST_CASE("a worker is notified when its queue is shut down") {
     ControlledPair calls;
     Wishes wishes;
     auto caller = calls.call(wishes, 300s);

@@ -91,7 +91,7 @@ TEST_CASE("more than 64 MiB are refused with both numbers, arguments before the 
     CHECK_THROWS_AS(calls.first->add_call_queue("e", {.max_bytes = longest}), Error);
 }
 
-TEST_CASE("a caller without memory for long results is told so, and its slot becomes free") {
+TEST_CASE("a caller without memory for long results gets this error, and its slot becomes free") {
     LongCalls calls(1);
     const std::uint64_t before = calls.memory_in_file();
     Workers workers(calls.server, 1, [](IncomingCall& call) {

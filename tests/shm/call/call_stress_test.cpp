@@ -121,7 +121,7 @@ TEST_CASE("a caller that only polls wakes a worker even if another one is expect
     once.join();
 }
 
-TEST_CASE("calls to a server with a polling worker wake nobody") {
+TEST_CASE("calls to a server with a polling worker wake no thread") {
     CallPair calls({.slots = 4, .max_bytes = 64}, {.spin = 60s});
     Workers workers(calls.server, 3, echo);
     const std::size_t rounds = 3000;

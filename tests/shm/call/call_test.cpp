@@ -40,7 +40,7 @@ TEST_CASE("an error of the service arrives as status and text") {
     CHECK(calls.client.call(std::vector<std::byte>(4097), 20s).status == CallStatus::bad_arguments);
 }
 
-TEST_CASE("a call that nobody takes ends at its deadline and is not run later") {
+TEST_CASE("a call that no worker takes ends at its deadline and is not run later") {
     CallPair calls;
     const auto before = now_ns();
     CHECK(calls.client.call({}, 3ms).status == CallStatus::timeout);
@@ -165,7 +165,7 @@ TEST_CASE("only waiting calls of dead callers are cancelled, and observers still
     CHECK(view.slots[1 - one].request.word.load() == with_state(waits, layout::CallState::cancelled));
 }
 
-TEST_CASE("a late answer goes to nobody and not to the next call of its slot") {
+TEST_CASE("a late answer is dropped and does not reach the next call of its slot") {
     CallPair calls({.slots = 1, .max_bytes = 64});
     auto caller = call_aside(calls.client, 300s);
     auto late = calls.server.take(20s);

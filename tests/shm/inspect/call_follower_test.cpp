@@ -126,7 +126,7 @@ TEST_CASE("Without a history a thread's last call is found") {
     CHECK(queue.follower().lost() == 9);
 }
 
-TEST_CASE("Calls before the first look are no loss, and the last of them are found") {
+TEST_CASE("Calls before the first reading do not count as lost, and the last of them are found") {
     FollowedQueue queue;
     for (std::uint64_t number = 1; number <= 6; ++number) queue.call(number);
     CHECK(queue.poll(CallActivity::none) == Numbers{3, 4, 5, 6});

@@ -77,7 +77,7 @@ TEST_CASE("the largest generation in the name of a file of another user splits n
     CHECK(observe(link.name, max_generation)->segment.readability == Readability::foreign);
 }
 
-TEST_CASE("a name with too many digits is no generation") {
+TEST_CASE("a name with too many digits is not a generation") {
     const Link link;
     for (const char* generation : {"1000000000000000000", "18446744073709551616", "01", "0", "1x", ""})
         std::ofstream("/dev/shm/" + file_prefix(link.name) + generation) << "x";

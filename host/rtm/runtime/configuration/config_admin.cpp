@@ -171,7 +171,7 @@ bool ConfigAdmin::setConfigurationSetValues(const coil::Properties& config_set) 
         if (present.findNode(name) != nullptr || isExist(name.c_str())) continue;
         warn_about_setting(instance_name(m_configsets), std::string("configuration set ") +
                                                             config_set.getName() + " gets " + name +
-                                                            ", which is no parameter of the component" +
+                                                            ", which is not a parameter of the component" +
                                                             tandem::text::did_you_mean(name, known));
     }
     if (!haveConfig(config_set.getName())) m_newConfig.push_back(config_set.getName());

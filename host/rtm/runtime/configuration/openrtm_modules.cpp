@@ -12,7 +12,7 @@ const std::vector<OpenRtmModule>& openrtm_modules() {
     static const std::vector<OpenRtmModule> modules{
         {"ComponentObserverConsumer", true, built_in},
         {"FSMComponentObserverConsumer", true, built_in},
-        {"ExtendedFsmServiceProvider", true, "the structure of a state machine is not told to tools"},
+        {"ExtendedFsmServiceProvider", true, "tools do not get the structure of a state machine"},
         {"LoggerConsumer", true, built_in},
         {"RTPreemptEC", true,
          "PeriodicExecutionContext has what it adds, and RTPreemptEC is another name of it"},

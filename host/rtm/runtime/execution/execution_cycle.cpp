@@ -44,7 +44,7 @@ ExecutionContextBase::CycleResult ExecutionContextBase::cycle() {
     for (auto& participant : *all) result.changed_state |= participant->applyTransition();
     for (auto& participant : *all) participant->execute();
     if (!tandem::rt::rehearsing())
-        for (auto& participant : *all) participant->updateState();
+        for (auto& participant : *all) participant->runStateUpdate();
     for (auto& participant : *all) result.has_work |= !participant->isInactive();
     m_cycleThread.store(std::thread::id(), std::memory_order_relaxed);
     return result;

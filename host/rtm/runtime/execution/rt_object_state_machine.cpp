@@ -131,7 +131,7 @@ void RTObjectStateMachine::execute() {
     if (now == ACTIVE_STATE && executeComponent() != RTC_OK) requestErrorState();
 }
 
-void RTObjectStateMachine::updateState() {
+void RTObjectStateMachine::runStateUpdate() {
     if (states_.load() == States{ACTIVE_STATE, ACTIVE_STATE} && call(on_state_update) != RTC_OK)
         requestErrorState();
 }

@@ -48,7 +48,7 @@ class RTObjectStateMachine {
     /// on_execute in the ACTIVE state, on_error in the ERROR state; nothing while a transition is pending.
     void execute();
     /// on_state_update in the ACTIVE state.
-    void updateState();
+    void runStateUpdate();
 
     /// Reports what the three steps use (host/rt/cycle_lines.hpp).
     void note_lines() const;

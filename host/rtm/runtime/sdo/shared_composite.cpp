@@ -261,7 +261,7 @@ void warn_about_missing_ports(RTObject_impl& composite) {
         if (std::find(present.begin(), present.end(), name) == present.end())
             warn_about_setting(composite.getInstanceName(),
                                "exported_ports names " + name +
-                                   ", which is no port of a member; expected Member.port");
+                                   ", which is not a port of a member; expected Member.port");
 }
 
 // Follows changes of exported_ports by tools.

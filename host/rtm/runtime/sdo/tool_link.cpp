@@ -27,7 +27,7 @@ void ToolLink::start() {
     thread_ = tandem::process::start_thread([this] { run(); });
 }
 
-void ToolLink::begin_end() {
+void ToolLink::request_end() {
     std::lock_guard<std::mutex> lock(mutex_);
     if (std::exchange(stopping_, true)) return;
     deadline_ = Clock::now() + std::chrono::milliseconds(call_timeout_ms);
@@ -35,7 +35,7 @@ void ToolLink::begin_end() {
 }
 
 void ToolLink::finish() {
-    begin_end();
+    request_end();
     if (thread_.joinable()) thread_.join();
 }
 

@@ -41,7 +41,7 @@ class ToolLink {
     void start();
     /// Lets the thread make the calls that wait, for 2 s at most and one call, and then end. Runs no more tasks. Does not
     /// wait.
-    void begin_end();
+    void request_end();
     /// Does the same and waits for the end of the thread, which may still call send().
     void finish();
 

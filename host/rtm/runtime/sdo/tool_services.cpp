@@ -43,7 +43,7 @@ bool ToolService::init(RTObject_impl& component, const SDOPackage::ServiceProfil
 }
 
 void ToolService::begin_finalize() {
-    if (link_ != nullptr) link_->begin_end();
+    if (link_ != nullptr) link_->request_end();
 }
 
 bool ToolService::reinit(const SDOPackage::ServiceProfile& profile) {

@@ -35,7 +35,7 @@ inline ChairLimits chair_limits_from(const std::vector<double>& v) {
     for (double x : v) good = good && std::isfinite(x) && x > 0.0;
     if (!good)
         throw InputError("service chair answered limits() with " + std::to_string(v.size()) +
-                         " numbers that are not four positive ones; connect the port to an HWComp");
+                         " numbers that are not four positive numbers; connect the port to an HWComp");
     return {v[0], v[1], v[2], v[3]};
 }
 

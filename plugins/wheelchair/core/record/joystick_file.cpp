@@ -65,7 +65,7 @@ class Line {
         if (v[0] < 0.0) wrong("time before 0");
         for (int i : {1, 2})
             if (v[i] != std::floor(v[i]) || std::abs(v[i]) > max_count)
-                wrong("stick position is no whole number from -2000 to 2000");
+                wrong("stick position is not a whole number from -2000 to 2000");
         if (v[3] != 0.0 && v[3] != 1.0) wrong("estop is neither 0 nor 1");
     }
 

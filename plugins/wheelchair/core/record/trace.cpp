@@ -59,7 +59,7 @@ std::string difference(int file, const std::vector<char>& expected) {
     const std::size_t count_at = offsetof(TraceHeader, committed), names_at = sizeof(TraceHeader);
     if (std::memcmp(page.data(), expected.data(), count_at) != 0 ||
         std::memcmp(page.data() + names_at, expected.data() + names_at, page.size() - names_at) != 0)
-        return "another version or other columns; give each component a trace file of its own";
+        return "another version or other columns; give each component a separate trace file";
     return {};
 }
 

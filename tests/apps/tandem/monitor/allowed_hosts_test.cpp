@@ -39,7 +39,7 @@ TEST_CASE("the option --allow-host allows a name or an address in any spelling")
     CHECK_FALSE(allows("robot.local.example.org", "192.168.1.5", more));
 }
 
-TEST_CASE("the option --allow-host refuses what is no name") {
+TEST_CASE("the option --allow-host refuses an invalid name") {
     for (const char* text : {"", "http://robot", "robot:8080", "robot/x", "*", "a b", "[robot]:1"}) {
         INFO(text);
         CHECK_THROWS_WITH(AllowedHosts(std::vector<std::string>{text}),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Clients that take all places, and the clients that they keep out. Processes of other users need root: for another user the
-// cases that need them are passed over, with one line.
+// Clients that take all places, and the clients that they keep out. Only root can create processes of other users. Other users
+// skip the cases that need them, with one line.
 #include "http_client.hpp"
 
 #include "apps/tandem/monitor/web/places.hpp"

@@ -50,7 +50,7 @@ TEST_CASE("a side that dies and starts again in a new generation causes two even
                                      "the RTM host rtm_host (pid 33) has started again"});
 }
 
-TEST_CASE("a side that ends in order is no failure, and one that dies is") {
+TEST_CASE("a side that dies is a failure, and a side that ends in order is not") {
     LinkState ended = sound_link(), gone = sound_link();
     ended.sides[1].state = PeerState::dead;
     ended.sides[1].left = true;
@@ -61,7 +61,7 @@ TEST_CASE("a side that ends in order is no failure, and one that dies is") {
     CHECK(texts(ended, gone).empty());
 }
 
-TEST_CASE("a restart between two looks tells how the previous process ended") {
+TEST_CASE("after a restart between two states, the event says how the previous process ended") {
     LinkState again = sound_link();
     again.sides[1].pid = 33;
     CHECK(texts(sound_link(), again) == Texts{"!the RTM host rtm_host (pid 22) has died",

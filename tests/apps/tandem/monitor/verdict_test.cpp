@@ -233,7 +233,7 @@ TEST_CASE("what a look could not see, and a recording that has failed, are findi
     CHECK(judge(state).reason == state.recording_failure);
 }
 
-TEST_CASE("each level has a name and a text of its own, and only one of them says that all is well") {
+TEST_CASE("each level has a separate name and text, and only one of them says that all is well") {
     std::set<std::string> names;
     for (int level = 0; level <= static_cast<int>(worst_level); ++level)
         CHECK(names.insert(name_of(static_cast<Level>(level))).second);

@@ -47,7 +47,7 @@ TEST_CASE("a header that exists once in the checkout is used, and options are su
                                "/other ("));
 }
 
-TEST_CASE("an incomplete copy of a library in the checkout is no remedy where Debian has the library") {
+TEST_CASE("an incomplete copy of a library in the checkout is not used if Debian has the library") {
     const Folder folder;
     old_component(folder, "");
     fs::create_directories(folder.path() / ".git");

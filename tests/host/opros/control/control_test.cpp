@@ -142,7 +142,7 @@ TEST_CASE("an unknown property is refused, and the nearest name is shown") {
     CHECK(scene.ask("conf", "M")["properties"] == scene.ask("info", "M")["properties"]);
 }
 
-TEST_CASE("requests that are no requests get an error") {
+TEST_CASE("invalid requests get an error") {
     Scene scene;
     for (const char* request : {"", "[]", "{\"command\": 5}", "{\"command\": \"fly\"}", "\xff\xfe"})
         CHECK_THAT(scene.control->answer(request), Contains("error"));
@@ -150,7 +150,7 @@ TEST_CASE("requests that are no requests get an error") {
     CHECK(ApplicationControl::time_limit("{\"timeout_s\": -1}") == std::chrono::milliseconds(100));
 }
 
-TEST_CASE("nothing is told of properties, and no component started, when the application ends") {
+TEST_CASE("no properties are reported, and no component is started, when the application ends") {
     Scene scene;
     scene.control->close();
     scene.application.stop();

@@ -63,7 +63,7 @@ TEST_CASE("a property that names a device library becomes its path and other pro
     CHECK(component.getProperty("opros.component.dir") == (folder.path() / "").string());
 }
 
-TEST_CASE("a component does not see a dlerror() of somebody else") {
+TEST_CASE("a component does not see the dlerror() of other code") {
     const Folder folder;
     folder.component("M", "maker.dll");
     Application application(folder.application(Folder::sub("M", "M.xml")), test_options(folder));

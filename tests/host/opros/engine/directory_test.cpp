@@ -82,7 +82,7 @@ TEST_CASE("a component that gets the directory is initialized after all others")
     CHECK(directory_of(application).transition("N", TRANSITION_START) == "there is no component N");
 }
 
-TEST_CASE("a directory makes transitions while its application runs, and listeners are told of each") {
+TEST_CASE("a directory makes transitions while its application runs, and listeners are notified of each") {
     const Folder folder;
     Application application(watched(folder, "none"), test_options(folder));
     auto& directory = directory_of(application);

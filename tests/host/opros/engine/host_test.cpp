@@ -215,7 +215,7 @@ TEST_CASE("signals within one second are one request to stop and everything is s
     CHECK_THAT(host.output, Catch::Contains("M is gone\n"));
 }
 
-TEST_CASE("a host whose log nobody reads any more runs on, and ends in order") {
+TEST_CASE("a host whose log is no longer read keeps running, and ends in order") {
     const Folder folder;
     signal(SIGPIPE, SIG_DFL); // what the host inherits
     Process host({OPROS_HOST, "--plugin-path", FIXTURES, one_component(folder, "maker")});
@@ -225,7 +225,7 @@ TEST_CASE("a host whose log nobody reads any more runs on, and ends in order") {
     CHECK(host.exit_code() == 0);
 }
 
-TEST_CASE("one signal ends a host whose log is full and nobody reads it") {
+TEST_CASE("one signal ends a host whose log is full and not read") {
     const Folder folder;
     // The component itself prints a line at its end, and blocks while doing so.
     Process host({OPROS_HOST, "--plugin-path", FIXTURES, "--grace", "0.2", one_component(folder, "maker")});

@@ -210,7 +210,7 @@ TEST_CASE("A configuration file has keys, comments and continued lines") {
     CHECK(conf.getProperty("x.y") == "3");
 }
 
-TEST_CASE("A line that is no setting is refused with file and line") {
+TEST_CASE("A line that is not a setting is refused with file and line") {
     ConfFile file("a: 1\n\nwithout a separator\n");
     coil::Properties conf;
     CHECK_THROWS_WITH(RTC::read_conf_file(file.path, conf),

@@ -123,7 +123,7 @@ TEST_CASE("A component whose onInitialize fails is not created") {
 }
 
 TEST_CASE(
-    "A periodic context runs in a thread of its own, and its transitions are done when the call returns") {
+    "A periodic context runs in a separate thread, and its transitions are done when the call returns") {
     ManagerFixture fixture(false, {"exec_cxt.periodic.rate:500"});
     auto& counter = fixture.create<Counter>("Counter");
     auto& accumulator = fixture.create<Accumulator>("Accumulator");

@@ -71,7 +71,7 @@ TEST_CASE("A component offers the SDO services whose providers a library has reg
     CHECK(finalized == 1);
 }
 
-TEST_CASE("A component adds and removes SDO services of its own") {
+TEST_CASE("A component adds and removes its own SDO services") {
     ManagerFixture fixture;
     auto& counter = fixture.create<Counter>("Counter");
     CHECK(counter.addSdoServiceProvider(profile_of("mine", "IDL:test/Offered:1.0"), new Offered));

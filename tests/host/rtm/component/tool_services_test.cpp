@@ -78,7 +78,7 @@ using Served = PortableServer::Servant_var<Tool>;
 
 } // namespace
 
-TEST_CASE("An observer is told of states, contexts, ports, messages, configuration and heartbeats") {
+TEST_CASE("An observer is notified of states, contexts, ports, messages, configuration and heartbeats") {
     RemoteHost other("Counter,Reporter", unused_port(),
                      {"manager.components.preconnect:Counter0.out?port=Reporter0.in"});
     REQUIRE(other.host.wait_for_output("ready\n"));
@@ -116,7 +116,7 @@ TEST_CASE("An observer is told of states, contexts, ports, messages, configurati
     CHECK(observer->told.number_of("1 ACTIVE:0") == 1);
 }
 
-TEST_CASE("An observer of the end of a component is told of it") {
+TEST_CASE("An observer of the end of a component is notified of it") {
     RemoteHost other("Counter");
     REQUIRE(other.host.wait_for_output("ready\n"));
     ManagerFixture fixture;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What other users of the machine can do to a manager. The attacker is a process of another user id, which only root can
-// make: for another user the cases that need it are passed over, with one line.
+// What other users of the machine can do to a manager. The attacker is a process of another user, which only root can create.
+// Other users skip these cases, with one line.
 #include "host/local/local_endpoint.hpp"
 #include "host/rtm/runtime/naming/remote_names.hpp"
 #include "tests/host/rtm/giop/giop_message.hpp"
@@ -151,7 +151,7 @@ TEST_CASE("The socket of a manager lies in a folder that other users cannot ente
     CHECK((error == -1 || error == EACCES));
 }
 
-TEST_CASE("The socket of a killed manager accepts nobody, also while a helper lives that one of its "
+TEST_CASE("The socket of a killed manager accepts no connection, also while a helper lives that one of its "
           "components has forked") {
     auto arguments = without_tcp();
     arguments.insert(arguments.end(), {"-o", "manager.components.precreate:HelperForker", "-o",
@@ -226,7 +226,8 @@ TEST_CASE("A user whom corba.permitted_users names is let in, and an unknown one
     CHECK(refusing.host.errors.find("this machine has no user no-such-user") != std::string::npos);
 }
 
-TEST_CASE("A type of component is no path: create_component() loads nothing from outside the module path") {
+TEST_CASE(
+    "A type of component is not a path: create_component() loads nothing from outside the module path") {
     ManagerFixture fixture(false, {"manager.modules.load_path:/nonexistent"});
     const auto known = fixture.manager().getModulesFactories();
     CHECK(fixture.manager().createComponent(TANDEM_TEST_PLUGINS "/TestComponents") == nullptr);

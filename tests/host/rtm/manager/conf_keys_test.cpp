@@ -59,8 +59,9 @@ TEST_CASE("An unknown key is named with file, line and the nearest known key") {
     CHECK_THAT(lines[2], Contains(":4: unknown key rate"));
 }
 
-TEST_CASE("Misspelt keys and wrong values of one kind of execution context, or of one, are told as those of "
-          "all are") {
+TEST_CASE(
+    "Misspelt keys and wrong values of one kind of execution context, or of one, are reported like those of "
+    "all are") {
     using Catch::Contains;
     const auto lines =
         check_text("ec.PeriodicExecutionContext.rate: 100\nec.PeriodicExecutionContext.rte: 100\n"
@@ -83,7 +84,7 @@ TEST_CASE("Misspelt keys and wrong values of one kind of execution context, or o
             .empty());
 }
 
-TEST_CASE("Misspelt settings of ports are told, and those that a library may have pass") {
+TEST_CASE("Misspelt settings of ports are reported, and those that a library may have are accepted") {
     using Catch::Contains;
     const auto lines = check_text("port.inport.in.bufer.length: 3\nport.inprt.in.buffer.length: 3\n"
                                   "port.outport.arm.pose.publisher.push_polcy: all\n"
@@ -142,7 +143,8 @@ TEST_CASE("Each key refuses each value that it cannot have") {
     CHECK(refused > 200);
 }
 
-TEST_CASE("Files that are no configuration are refused with one line, and files of other systems are read") {
+TEST_CASE(
+    "Files that are not a configuration are refused with one line, and files of other systems are read") {
     using Catch::Contains;
     coil::Properties conf;
     CHECK(check_text("\xef\xbb\xbfmanager.name: a\r\n# \x95\x5c\r\nmanager.shutdown_auto: NO\r\n", conf)

@@ -81,7 +81,7 @@ TEST_CASE("rtm_host refuses bad input with one line that says where and what") {
     CHECK_THAT(refusal(std::vector<std::string>{"-p", "many"}), Contains("option -p") && Contains("many"));
 }
 
-TEST_CASE("A rate that is no rate keeps its component from being created") {
+TEST_CASE("An invalid rate prevents its component from being created") {
     using Catch::Contains;
     const std::string rate = GENERATE("5O", "0", "-5", "10Hz", "1e300");
     const std::string key = GENERATE("exec_cxt.periodic.rate", "ec.PeriodicExecutionContext.rate");

@@ -20,7 +20,7 @@ std::vector<std::string> chatterbox(const std::vector<std::string>& more = {}) {
 
 } // namespace
 
-TEST_CASE("a component runs on while nobody reads the log, and the lost lines are counted") {
+TEST_CASE("a component keeps running while its log is not read, and the lost lines are counted") {
     HostProcess host(chatterbox());
     host.stall_errors(true);
     CHECK(host.wait_for_output("logged\n"));
@@ -30,7 +30,7 @@ TEST_CASE("a component runs on while nobody reads the log, and the lost lines ar
     CHECK(host.wait_for_exit() == 0);
 }
 
-TEST_CASE("one signal ends a host whose RTCs log what nobody reads") {
+TEST_CASE("one signal ends a host whose RTCs write a log that is not read") {
     HostProcess host(chatterbox());
     host.stall_errors(true);
     CHECK(host.wait_for_output("logged\n"));

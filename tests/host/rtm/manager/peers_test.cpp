@@ -395,7 +395,7 @@ TEST_CASE("Each interface type and both byte orders carry values between process
                Catch::Contains("interface_type is corba_cdr_udp, expected corba_cdr"));
 }
 
-TEST_CASE("Bytes that are no message of the port's type are dropped and the next valid message is read") {
+TEST_CASE("Bytes that are not a message of the port's type are dropped and the next valid message is read") {
     ManagerFixture fixture;
     auto& accumulator = fixture.create<Accumulator>("Accumulator");
     auto& counter = fixture.create<Counter>("Counter");

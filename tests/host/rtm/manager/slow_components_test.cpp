@@ -65,8 +65,9 @@ TEST_CASE("The other components and the host end in order whichever callback of 
     }
 }
 
-TEST_CASE("A slow onActivated is no error: the host says that it waits and when the component is ACTIVE or "
-          "in ERROR") {
+TEST_CASE(
+    "A slow onActivated is not an error: the host says that it waits and when the component is ACTIVE or "
+    "in ERROR") {
     using Catch::Contains;
     Folder folder;
     HostProcess host(

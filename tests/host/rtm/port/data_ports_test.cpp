@@ -246,7 +246,7 @@ TEST_CASE("A timestamp policy puts the time in, and the writer's variable stays 
     CHECK(counter.value_.tm.sec == 0);
 }
 
-TEST_CASE("The subscription type new delivers from a thread of its own") {
+TEST_CASE("The subscription type new delivers from a separate thread") {
     ManagerFixture fixture;
     auto& counter = fixture.create<Counter>("Counter");
     auto& accumulator = fixture.create<Accumulator>("Accumulator");

@@ -167,7 +167,8 @@ TEST_CASE("A listener to the values of a direct connection gets them without ser
     CHECK(received->seen != nullptr);
 }
 
-TEST_CASE("What a listener has heard of a direct connection goes into the buffer without another copy") {
+TEST_CASE(
+    "A message that a listener of a direct connection has received enters the buffer without another copy") {
     ManagerFixture fixture;
     PortPair<RTC::TimedOctetSeq> ports(fixture, "interface_type=direct");
     auto* received = new LookAt;
@@ -250,7 +251,7 @@ TEST_CASE("A long sequence of a direct connection is copied once, into memory th
         CHECK(picture.tm.nsec == number);
         places.insert(ports.received.data.get_buffer());
     }
-    CHECK(places.size() == 2); // the variable's and the buffer's in turn
+    CHECK(places.size() == 2); // the memory of the variable and of the buffer in turn
 
     for (CORBA::Octet number = 21; number <= 24; ++number) write_picture(ports, number);
     for (CORBA::Octet number = 21; number <= 24; ++number) CHECK(read_picture(ports).data[0] == number);
@@ -270,7 +271,7 @@ TEST_CASE("While only a listener uses long values, a direct connection keeps the
     ports.in.addConnectorDataListener(RTC::ON_RECEIVED, received);
     ports.sent.data.length(picture_bytes);
     for (CORBA::Octet number = 1; number <= 20; ++number) write_picture(ports, number);
-    CHECK(places.size() == 2); // that of the listener and that of the buffer in turn
+    CHECK(places.size() == 2); // the memory of the listener and of the buffer in turn
     CHECK(read_picture(ports).data[0] == 20);
     CHECK_FALSE(ports.in.isNew());
     for (CORBA::Octet number = 21; number <= 24; ++number) write_picture(ports, number);

@@ -237,7 +237,7 @@ struct StepResultListener : RTC::PortConnectRetListener {
 
 } // namespace
 
-TEST_CASE("The steps of a connection are told in order") {
+TEST_CASE("The steps of a connection are reported in order") {
     ManagerFixture fixture;
     auto& counter = fixture.create<Counter>("Counter");
     fixture.create<Accumulator>("Accumulator");

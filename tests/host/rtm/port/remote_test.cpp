@@ -159,7 +159,7 @@ TEST_CASE("Data crosses processes in both directions, and a receiver that dies i
     CHECK(fixture.state(counter) == RTC::ACTIVE_STATE);
 }
 
-TEST_CASE("A port looks for a duplicate itself and spares ports of other processes the look") {
+TEST_CASE("A port itself looks for a duplicate and does not make ports of other processes do so") {
     Other other;
     REQUIRE(other.host.wait_for_output("ready\n"));
     ManagerFixture fixture;
@@ -243,7 +243,7 @@ TEST_CASE("A service of another process is called, and gone when its process is"
     CHECK_THROWS_AS(consumer.calculator_->sum(numbers), CORBA::SystemException);
 }
 
-TEST_CASE("A service may take longer than a call of the framework up to a bound of its own") {
+TEST_CASE("A service may take longer than a call of the framework up to a separate time limit") {
     RemoteHost other("CalculatorProvider");
     REQUIRE(other.host.wait_for_output("ready\n"));
     ManagerFixture fixture(false,

@@ -25,8 +25,8 @@ TEST_CASE("A listener hears what has come before anybody looked, and each messag
     CHECK(connection.read_all() == numbers_up_to(4));
 }
 
-TEST_CASE(
-    "Listeners have heard a message when the sender goes on, and only the first one is a call of the ORB") {
+TEST_CASE("Listeners have received a message when the sender continues, and only the first message is a call "
+          "of the ORB") {
     RingConnection connection;
     Numbers heard;
     connection.port.addConnectorDataListener(RTC::ConnectorDataListenerType::ON_RECEIVED,
@@ -153,7 +153,7 @@ TEST_CASE("A listener may add another one, which hears each message from then on
     CHECK(first->by_second.all() == numbers_up_to(2));
 }
 
-TEST_CASE("Who looks at a port does not call its listeners, however those were added") {
+TEST_CASE("Reading a port does not call its listeners, however they were added") {
     RingConnection connection;
     Numbers heard;
     connection.put(1);

@@ -62,7 +62,8 @@ TEST_CASE("Long messages go through shared memory, too, and by calls while the r
     CHECK(connection.calls->count == calls);
 }
 
-TEST_CASE("Messages that nobody reads go by calls after a while, which shows whether their process answers") {
+TEST_CASE("Messages that are not read go by calls after a while, which show whether the receiving process "
+          "answers") {
     RingConnection connection;
     connection.put(1);
     CHECK(connection.calls->count == 0);
@@ -94,7 +95,7 @@ TEST_CASE("A message before the end of its connection stays in the port's buffer
     CHECK(connection.buffer.readable() == 1);
 }
 
-TEST_CASE("A receiver that has ended is told from one that does not look") {
+TEST_CASE("A receiver that has ended is distinguished from one that does not read") {
     RingConnection connection;
     connection.put(1);
     connection.port.disconnect();

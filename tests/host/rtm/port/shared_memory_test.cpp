@@ -128,7 +128,7 @@ TEST_CASE(
         }
 }
 
-TEST_CASE("The addresses of this machine are told from those of others") {
+TEST_CASE("The addresses of this machine are distinguished from those of others") {
     ManagerFixture fixture;
     auto address_of = [&](const std::string& host) {
         CORBA::Object_var object =

@@ -6,6 +6,9 @@ import {groupsOf} from './groups.js';
 /** The ports of these components are mirrors, which the graph shows beside the link. */
 const proxyTypes = new Set(['AdaptorComp', 'InterceptorComp']);
 
+/** A host may list any number of ports with one connection, which is drawn from each source to each of the others. */
+const mostEdges = 10_000;
+
 const isSource = ({direction}) => direction === 'output' || direction === 'required';
 const portIdOf = (box, name) => `${box.id}/${name}`;
 
@@ -69,11 +72,18 @@ class Inside {
   }
 
   /** Returns the edges of connections with two ends that are drawn. A link draws the connections between its ports and mirrors. */
-  edges() {
+  edges(notes) {
     const edges = [];
-    for (const [id, ends] of [...this.ends].sort(([a], [b]) => a < b ? -1 : 1))
-      for (const from of ends.filter(({source}) => source))
-        for (const to of ends.filter(({source}) => !source)) edges.push(edgeOf(id, from, to));
+    let undrawn = 0;
+    for (const [id, ends] of [...this.ends].sort(([a], [b]) => a < b ? -1 : 1)) {
+      const others = ends.filter(({source}) => !source);
+      for (const from of ends.filter(({source}) => source)) {
+        const drawn = others.slice(0, mostEdges - edges.length);
+        undrawn += others.length - drawn.length;
+        for (const to of drawn) edges.push(edgeOf(id, from, to));
+      }
+    }
+    if (undrawn > 0) notes.push(`${undrawn} more connections inside hosts are not drawn`);
     return edges;
   }
 }
@@ -95,8 +105,9 @@ function edgeOf(id, from, to) {
     title: `${from.port.name} → ${to.port.name} ${from.port.type ?? ''}${from.host === to.host ? '' : ', between two hosts without a link'}`};
 }
 
-/** Adds to the hosts of links, and adds hosts without a link. `listed`: the hosts of the state. Returns the new edges. */
-export function addInside(hosts, listed, rows) {
+/** Adds to the hosts of links, and adds hosts without a link. `listed`: the hosts of the state. Returns the new edges,
+ *  and adds to `notes` what cannot be shown. */
+export function addInside(hosts, listed, rows, notes) {
   for (const {pid, program, inventory, stopped} of [...listed].sort(byName))
     if (!hosts.some((host) => host.pid === pid) && inventory)
       hosts.push({id: `host ${pid}`, pid, state: stopped ? 'stopped' : 'alive', ended: false, title: `${modelOf(inventory)} host ${program}`, components: []});
@@ -107,7 +118,7 @@ export function addInside(hosts, listed, rows) {
   const inside = new Inside(hosts, rows);
   for (const host of hosts) inside.addComponents(host);
   for (const ofProxies of [false, true]) for (const host of hosts) inside.addPorts(host, ofProxies);
-  const edges = inside.edges();
+  const edges = inside.edges(notes);
   for (const {components} of hosts)
     for (const {ports} of components)
       for (const port of ports) port.side ??= port.out ? 'first' : 'second';

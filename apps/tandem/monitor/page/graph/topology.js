@@ -84,7 +84,7 @@ export function topologyOf(links, refused, rows = [], listed = []) {
   const builder = new Builder(refused);
   for (const link of links) builder.addLink(link);
   const hosts = [...builder.hosts.values()].map((host) => ({...host, components: [...host.components.values()]}));
-  const edges = [...builder.edges, ...addInside(hosts, listed, rows)];
+  const edges = [...builder.edges, ...addInside(hosts, listed, rows, builder.unreadable)];
   // For a host with several links, adds the link's name to the component.
   for (const {components} of hosts)
     if (new Set(components.filter(({inside}) => !inside).map((component) => component.link)).size > 1)

@@ -47,3 +47,18 @@ test("the graph of the inside stands still while components run", async () => {
   await page.waitForTimeout(1000);
   assert.deepEqual(await places(), first);
 });
+
+test("of a host that lists all its ports with one connection, a bounded number of edges is made", async () => {
+  const [few, many] = await page.evaluate(async () => {
+    const { topologyOf } = await import(new URL("graph/topology.js", document.baseURI).href);
+    const graphOf = (number) => {
+      const port = (direction) => (_, i) => ({ component: "A", name: `${direction}${i}`, kind: "data", direction, connections: ["one"] });
+      const ports = ["output", "input"].flatMap((direction) => Array.from({ length: number }, port(direction)));
+      const { edges, notes } = topologyOf([], [], [], [{ pid: 1, program: "rtm_host", inventory: { components: [{ name: "A" }], contexts: [], ports } }]);
+      return { edges: edges.length, notes };
+    };
+    return [graphOf(3), graphOf(1000)];
+  });
+  assert.deepEqual(few, { edges: 9, notes: [] });
+  assert.deepEqual(many, { edges: 10000, notes: ["990000 more connections inside hosts are not drawn"] });
+});

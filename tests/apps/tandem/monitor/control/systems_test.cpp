@@ -114,8 +114,8 @@ TEST_CASE("the folders of systems and of built components are listed") {
           json{{{"name", "PartComp"}, {"model", "OPRoS"}}, {{"name", "PartRtc"}, {"model", "RTM"}}});
 }
 
-TEST_CASE(
-    "tandem system new writes nothing if two components would have one name, or the folder's is no link's") {
+TEST_CASE("tandem system new writes nothing if two components would have one name, or the folder's name is "
+          "not valid for a link") {
     const SystemsFolder folder;
     const fs::path part = fs::path(TANDEM_PARTS) / "PartComp";
     for (const char* name : {"one", "two"}) fs::copy(part, folder.path / name, fs::copy_options::recursive);

@@ -90,7 +90,7 @@ TEST_CASE("the components, contexts, ports and connections that a host lists are
     CHECK(read_own_inventory()->components.empty());
 }
 
-TEST_CASE("lines of an inventory that are no parts are counted, and names are made printable") {
+TEST_CASE("invalid lines of an inventory are counted, and names are made printable") {
     HostInventory inventory;
     parse_inventory(
         "component\tA\x1b[2J\tT\t\t0\n  \n\ncomponent\tshort\nwheel\tA\nport\tA\tp\tdata\toutput\n"
@@ -161,7 +161,7 @@ TEST_CASE("a host without a link is found by what it lists, and its use of the m
     unlist_part(&arm);
 }
 
-TEST_CASE("a process that only reads the inventory of a host is no host") {
+TEST_CASE("a process that only reads the inventory of a host is not listed as a host") {
     const std::string text = "component\tArm\tT\t\t0\n";
     auto file = false_inventory(sound_head(4, text.size()), text);
     InventoryReader reader;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Passes numbers on, times a gain. The first of a chain counts.
+// Multiplies numbers by a gain and passes them on. The first of a chain counts.
 #include "tests/integration/rtm/register_rtc.hpp"
 
 #include <rtm/DataFlowComponentBase.h>
