@@ -19,7 +19,7 @@ struct Settings {
     std::chrono::milliseconds call_timeout{1'000}; ///< `call_timeout` [ms]: of each call across the link
     std::size_t large_bytes = 0;                   ///< `large_kib`: longest message of a port
     std::size_t segment_bytes =
-        std::size_t{4} * 1024 * 1024; ///< `segment_mib`: memory of each side, besides the chunks of long messages
+        std::size_t{4} * 1024 * 1024; ///< `segment_mib`: memory of each side, without chunks
     std::vector<std::string>
         event_ports; ///< `event_ports`: data ports of the RTC that are mirrored as event ports
     /// `port_table`, for tools: the ports to mirror (link::encode_as_text()). Then no link is opened.

@@ -19,7 +19,7 @@ struct Settings {
     std::size_t ring_bytes = std::size_t{256} * 1024; ///< `ring_kib`: of each data port
     std::size_t large_bytes = 0;                      ///< `large_kib`: longest message of a port
     std::size_t segment_bytes =
-        std::size_t{4} * 1024 * 1024; ///< `segment_mib`: memory of each side, besides the chunks of long messages
+        std::size_t{4} * 1024 * 1024; ///< `segment_mib`: memory of each side, without chunks
     bool strict = false;              ///< `strict`: a port that cannot be shared is an error at set-up
     std::string group;                ///< `group`: may join the link besides the owner; empty: only the owner
 };

@@ -52,7 +52,7 @@ process::CommandResult build(const CensusModel& model, const Candidate& candidat
 fs::path library_in(const fs::path& output) {
     for (const auto& entry : fs::directory_iterator(output))
         if (entry.path().extension() == ".so") return entry.path();
-    throw std::runtime_error("the build made no library");
+    throw std::runtime_error("the build produced no library");
 }
 
 } // namespace

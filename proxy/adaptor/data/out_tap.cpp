@@ -90,8 +90,7 @@ bool OutTap::again(opros_any& value) { return !check_.conversion && take(&value)
 bool OutTap::take(opros_any* value) {
     auto& channel = port_.channel();
     if (!channel.mutex().lock_unless_rehearsing()) return false;
-    const rt::ShortLock lock(channel.mutex(),
-                             std::adopt_lock); // also keeps the channel bound
+    const rt::ShortLock lock(channel.mutex(), std::adopt_lock); // also keeps the channel bound
     if ((port_.has_other_targets() || kept_count_ > 0) && !rt::rehearsing()) [[unlikely]]
         return read_beside_others(value);
     for (;;) {

@@ -58,8 +58,7 @@ struct ServicePortProfile {
     bool is_provided = false;
 };
 
-/// A <property> as listed. The engine uses `properties`. It checks these entries against their types only for
-/// messages.
+/// A <property> as listed, only for messages about values that do not fit their types. The engine uses `properties`.
 struct PropertyProfile {
     SourceLocation location;
     std::string name, type, value; ///< trimmed; the name may be empty
