@@ -144,7 +144,7 @@ TEST_CASE("calls of up to 64 MiB cross both ways, and a longer one is refused be
 }
 
 TEST_CASE(
-    "calls without a reply do not wait for the peer and run in order; those beyond 256 wait for a place") {
+    "calls without a reply do not wait for the peer and run in order, and those beyond 256 wait for a place") {
     TwoSides sides("send");
     CHECK(sides.a->link.send({"p", "o", "", {}}, soon).status == CallStatus::not_ready);
     Notes notes(*sides.b);

@@ -89,7 +89,7 @@ TEST_CASE("a connection without a port's name is left out and the others are mad
 }
 
 TEST_CASE(
-    "a connection that is listed again is one error with the line of the first; values are delivered once") {
+    "a connection that is listed again is one error with the line of the first, and values are delivered once") {
     const Folder folder;
     folder.component("M", "maker");
     folder.component("P", "printer");
