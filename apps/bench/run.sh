@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # Installs what is missing, the peers of apps/bench/peers/peers.txt too if it can, builds, measures, writes the report.
 #   apps/bench/run.sh [--out FOLDER] [options of build/release/bin/tandem-bench]
-# FOLDER (build/bench) gets report.json and pictures (SVG). With --acceptance the exit code is 1 if a limit is not met.
+# FOLDER (build/bench) gets report.json and pictures (SVG). With --acceptance the exit code is 1 if a limit is
+# not met, a case of Tandem has failed, or no limit could be checked.
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/../setup.sh"
 

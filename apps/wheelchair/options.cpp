@@ -96,7 +96,9 @@ Options parse_options(int argc, char** argv) {
            "run opros, rtm and mixed, and compare their steering angles; --plot draws them in one figure")
         ->excludes(record)
         ->excludes(drive);
-    app.add_option("--duration", o.duration, "seconds to drive, instead of the scenario's duration")
+    app.add_option("--duration", o.duration,
+                   "seconds to drive, instead of the scenario's duration;\n"
+                   "of more than 12 minutes in real time, report and log cover the last 6 to 12")
         ->check(options::number_between(0.01, 86400.0));
     app.add_option("--csv", o.csv, "write the log of every tick to this file")->take_last();
     app.add_option("--plot", o.plot, "plot to this file, .svg or .png")->take_last();

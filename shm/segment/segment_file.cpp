@@ -2,6 +2,7 @@
 #include "shm/segment/segment_file.hpp"
 
 #include "shm/os/error.hpp"
+#include "shm/os/link_name.hpp"
 #include "shm/segment/liveness.hpp"
 
 #include <cstring>
@@ -65,10 +66,7 @@ int allocate(int fd, std::uint64_t offset, std::uint64_t bytes) {
 } // namespace
 
 void check_link_name(const std::string& link) {
-    constexpr auto allowed = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-";
-    if (!link.empty() && link.size() <= 64 && !link.starts_with('-') &&
-        link.find_first_not_of(allowed) == std::string::npos)
-        return;
+    if (is_link_name(link)) return;
     throw Error("link name '" + link + "': expected 1 to 64 characters of A-Z a-z 0-9 _ -, the first not -");
 }
 

@@ -17,7 +17,7 @@ namespace tandem::shm {
 
 constexpr const char* shm_directory = "/dev/shm";
 
-/// Throws Error unless the name is 1 to 64 characters of A-Z a-z 0-9 _ - and cannot be a command-line option.
+/// Throws Error unless is_link_name() (shm/os/link_name.hpp).
 void check_link_name(const std::string& link);
 
 std::string file_prefix(const std::string& link);                            ///< "tandem.<link>."

@@ -30,7 +30,7 @@ ALLOWED = {
     "host/opros/runtime/port": ["host/opros/runtime/archive", "host/rt"],
     "host/opros/runtime/component": ["host/opros/runtime/archive"],
     "host/opros/engine/profile": ["host/text"],
-    "host/opros/engine/node": ["host/opros/engine/profile", "host/text"],
+    "host/opros/engine/node": ["host/opros/engine/profile", "host/text", "shm/os"],
     "host/opros/engine/load": ["host/opros/engine/profile", "host/opros/runtime/component", "host/plugin", "host/process",
                                "host/text", "host/log"],
     "host/opros/engine/execute": ["host/opros/engine/profile", "host/opros/engine/load", "host/crash", "host/plugin",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Joining, creating, leaving and tidying up, killed between any two system calls.
 #include "system_call_points.hpp"
+#include "tests/support/skip.hpp"
 
 using namespace tandem::shm;
 using namespace tandem::shm::test;
@@ -37,10 +38,7 @@ const std::vector<Scenario> scenarios = {
 } // namespace
 
 TEST_CASE("killed between any two system calls of join or leave a side is only dead and nothing is left") {
-    if (!Stepped::possible()) {
-        WARN("skipped: this process may not trace its children");
-        return;
-    }
+    if (!Stepped::possible()) TANDEM_SKIP("this process may not trace its children");
     for (const auto& scenario : scenarios) {
         unsigned points = 0;
         for (bool died = true; died; ++points) {
@@ -87,10 +85,7 @@ TEST_CASE("killed between any two system calls of join or leave a side is only d
 }
 
 TEST_CASE("a survivor who leaves removes what a side killed anywhere in join has left") {
-    if (!Stepped::possible()) {
-        WARN("skipped: this process may not trace its children");
-        return;
-    }
+    if (!Stepped::possible()) TANDEM_SKIP("this process may not trace its children");
     const bool corpse = GENERATE(false, true);
     bool died = true;
     for (unsigned k = 1; died; ++k) {

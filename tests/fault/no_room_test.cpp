@@ -4,6 +4,7 @@
 #include "../shm/small_shm.hpp"
 #include "shm/call/call_client.hpp"
 #include "shm/call/call_server.hpp"
+#include "tests/support/skip.hpp"
 
 #include <sys/resource.h>
 
@@ -29,13 +30,13 @@ int fails_naming(const Link& link, std::size_t arena_bytes, const std::string& a
     return 1;
 }
 
-/// Checks that `body` returns 0 in a child whose /dev/shm has 1 MiB; a warning where no such one may be made.
+/// Checks that `body` returns 0 in a child whose /dev/shm has 1 MiB; skips the test where no such one may be made.
 template <class Body>
 void check_in_small_shm(const Body& body) {
     Child child([&] { return enter_small_shm() ? body() : not_permitted; });
     const int result = child.wait();
     if (result == not_permitted)
-        WARN("skipped: this process may not mount a file system of its own");
+        TANDEM_SKIP_PART("this process may not mount a file system of its own");
     else
         CHECK(result == 0);
 }
@@ -227,10 +228,7 @@ TEST_CASE("an object of a sparse segment that finds no memory is an error that n
 }
 
 TEST_CASE("another user joins a segment of its own whichever side is free and cannot remove this one") {
-    if (geteuid() != 0) {
-        WARN("skipped: only root can become another user");
-        return;
-    }
+    if (geteuid() != 0) TANDEM_SKIP("only root can become another user");
     Link link;
     auto first = join(link, Side::first);
     Child stranger([&] {
@@ -246,7 +244,7 @@ TEST_CASE("another user joins a segment of its own whichever side is free and ca
     });
     const int result = stranger.wait();
     if (result == not_permitted)
-        WARN("skipped: this process may not become another user");
+        TANDEM_SKIP_PART("this process may not become another user");
     else
         CHECK(result == 0);
     CHECK(first->peer_state() == PeerState::absent);

@@ -152,4 +152,9 @@ TEST_CASE("tandem link profile refuses anything but one component of each model,
         occupied.output,
         Contains("TalkerComp exists and is not empty; remove it, or name another folder with --output DIR"));
     CHECK(std::filesystem::exists(folder.path() / "TalkerComp/TalkerComp.so"));
+    const auto misnamed = folder.tandem(
+        {"link", "profile", "TalkerComp", "EchoRtc", "--output", "joined", "--link", "my link"});
+    CHECK(misnamed.exit_code() == 1);
+    CHECK_THAT(misnamed.output, Contains("link name 'my link': expected 1 to 64 characters"));
+    CHECK_FALSE(std::filesystem::exists(folder.path() / "joined"));
 }

@@ -202,6 +202,13 @@ std::vector<double> values_of_runs(const Row& numerator, const Row* denominator)
     return values;
 }
 
+/// Returns whether the case was tried and no run has a figure.
+bool brought_nothing(const Report& report, const std::string& id) {
+    return std::any_of(report.rows.begin(), report.rows.end(), [&](const Row& row) {
+        return row.id == id && !row.runs.empty() && !row.skipped.empty();
+    });
+}
+
 /// Skips the limit, with the reason, if one of the cases has no figures.
 AcceptanceResult check_limit(const AcceptanceLimit& limit, const Report& report) {
     AcceptanceResult result{.limit = limit, .values = {}, .skipped = {}};
@@ -277,24 +284,29 @@ bool needed_for_acceptance(const std::vector<AcceptanceLimit>& limits, const std
     });
 }
 
+bool is_accepted(const std::vector<AcceptanceResult>& results) {
+    return std::any_of(results.begin(), results.end(), [](const auto& result) { return result.passed(); }) &&
+           std::none_of(results.begin(), results.end(),
+                        [](const auto& result) { return result.failed() || result.tried_in_vain; });
+}
+
 std::vector<AcceptanceResult> check_acceptance(const std::vector<AcceptanceLimit>& limits,
                                                const Report& report) {
     std::vector<AcceptanceResult> results;
     results.reserve(limits.size());
-    for (const AcceptanceLimit& limit : limits) results.push_back(check_limit(limit, report));
+    for (const AcceptanceLimit& limit : limits) {
+        results.push_back(check_limit(limit, report));
+        for (const std::string& id : {limit.numerator, limit.denominator})
+            if (id.starts_with("tandem/") && brought_nothing(report, id)) results.back().tried_in_vain = true;
+    }
     return results;
 }
 
 std::vector<AcceptanceLimit> missed_limits(const std::vector<AcceptanceLimit>& limits, const Report& report) {
-    const auto brought_nothing = [&](const std::string& id) {
-        return std::any_of(report.rows.begin(), report.rows.end(), [&](const Row& row) {
-            return row.id == id && !row.runs.empty() && !row.skipped.empty();
-        });
-    };
     std::vector<AcceptanceLimit> missed;
     for (const AcceptanceResult& result : check_acceptance(limits, report))
-        if (result.failed() || brought_nothing(result.limit.numerator) ||
-            brought_nothing(result.limit.denominator))
+        if (result.failed() || brought_nothing(report, result.limit.numerator) ||
+            brought_nothing(report, result.limit.denominator))
             missed.push_back(result.limit);
     return missed;
 }

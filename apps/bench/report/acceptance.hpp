@@ -37,12 +37,17 @@ struct AcceptanceResult {
     std::vector<double> values;         ///< one for each run, in order; NaN if the run failed
     std::size_t measured_again = 0; ///< how many of them, the last ones, were added because of a missed limit
     std::string skipped;            ///< why there is no value; empty if there is one
+    bool tried_in_vain = false;     ///< a case of Tandem was tried in each run and has no figure
     bool passed() const { return skipped.empty() && limit.is_met(value); }
     bool failed() const { return skipped.empty() && !limit.is_met(value); }
     /// Returns "pass", "FAIL" or the reason why the limit was skipped; with each value if it was measured
     /// again.
     std::string verdict() const;
 };
+
+/// Returns true if limits are met, none is missed, and each case of Tandem that was tried has figures: one that crashes, hangs or
+/// delivers corrupt messages has none.
+bool is_accepted(const std::vector<AcceptanceResult>& results);
 
 /// Returns all limits. Each peer that can sleep and is among the cases with these ids has a separate limit.
 std::vector<AcceptanceLimit> acceptance_limits(const std::vector<std::string>& ids);

@@ -1,29 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "apps/tandem/system/staged_folder.hpp"
+
 #include <filesystem>
+#include <string>
 
 namespace tandem::command {
 
-/// Creates one side of a folder for tandem run, DIR/opros or DIR/rtm. Unless keep() is called, removes it with its
-/// contents. Leaves the other side and other contents of DIR unchanged.
+/// Creates one side of a folder for tandem run, DIR/opros or DIR/rtm: it gets this name by publish(), when it is complete. Leaves
+/// the other side and other contents of DIR unchanged.
 class ImportFolder {
   public:
     /// `output` empty: NAME-tandem in the current folder, with NAME from the imported folder. Throws std::runtime_error
     /// if the side exists and is not empty, or cannot be created.
     ImportFolder(const std::filesystem::path& output, const std::filesystem::path& imported,
                  const char* side);
-    ~ImportFolder();
-    ImportFolder(const ImportFolder&) = delete;
-    ImportFolder& operator=(const ImportFolder&) = delete;
 
     const std::filesystem::path& output() const { return output_; } ///< as the user wrote it
-    const std::filesystem::path& path() const { return path_; }     ///< absolute path of the side
-    void keep() { keep_ = true; }
+    const std::filesystem::path& path() const { return path_; } ///< absolute; of the side while it is written
+    const std::filesystem::path& place() const { return place_; } ///< absolute; of the published side
+    /// Returns the text with place() instead of path().
+    std::string with_place(std::string text) const;
+    void publish() { staged_.publish(); }
 
   private:
-    std::filesystem::path output_, path_;
-    bool made_output_ = false, keep_ = false;
+    std::filesystem::path output_;
+    StagedFolder staged_;
+    std::filesystem::path path_, place_;
 };
 
 } // namespace tandem::command

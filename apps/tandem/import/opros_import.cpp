@@ -299,6 +299,31 @@ class ApplicationCopy {
     std::set<fs::path> copied_;
 };
 
+struct Import {
+    const fs::path& engine_dir;
+    const EngineConfig& config;
+    const engine::ApplicationProfile& application;
+    const std::string& link;
+};
+
+/// Writes the application and its components to the new folder.
+void write_import(const Import& import, const fs::path& folder, ImportReport& report) {
+    const auto& application = import.application;
+    const ImportNodes nodes(application, import.config);
+    ApplicationCopy copy(application, nodes, folder, report);
+    copy.copy_components();
+    copy.write_application(import.link);
+    // From here on, reports name files in the new folder, because users edit those.
+    tell_application_differences(application, report);
+    const auto written = engine::read_application_profile(folder / application.location.file.filename());
+    nodes.report(written, report);
+    const ComponentPlaces places{import.engine_dir, application, copy.folders()};
+    for (const auto& component :
+         engine::flatten_composites(written, plugin::default_plugin_dirs("opros")).subcomponents)
+        if (!nodes.is_elsewhere(component) && component.file.string().starts_with(folder.string()))
+            import_component(component, places, report);
+}
+
 } // namespace
 
 int opros_import(const OprosImportOptions& options) {
@@ -311,21 +336,13 @@ int opros_import(const OprosImportOptions& options) {
     const EngineConfig config = read_engine_config(engine_dir, report);
     const auto application = engine::read_application_profile(find_application(config, options.application));
     ImportFolder folder(options.output, options.folder, "opros");
-    const ImportNodes nodes(application, config);
-    ApplicationCopy copy(application, nodes, folder.path(), report);
-    copy.copy_components();
-    copy.write_application(options.link);
-    // From here on, reports name files in the new folder, because users edit those.
-    tell_application_differences(application, report);
-    const auto written =
-        engine::read_application_profile(folder.path() / application.location.file.filename());
-    nodes.report(written, report);
-    const ComponentPlaces places{engine_dir, application, copy.folders()};
-    for (const auto& component :
-         engine::flatten_composites(written, plugin::default_plugin_dirs("opros")).subcomponents)
-        if (!nodes.is_elsewhere(component) && component.file.string().starts_with(folder.path().string()))
-            import_component(component, places, report);
-    folder.keep();
+    try {
+        write_import({engine_dir, config, application, options.link}, folder.path(), report);
+    } catch (const std::exception& error) {
+        throw std::runtime_error(folder.with_place(error.what()));
+    }
+    folder.publish();
+    report.change_texts([&](std::string text) { return folder.with_place(std::move(text)); });
     report.print(folder.output(), "host/opros/README.md", "applications", options.json);
     return 0;
 }

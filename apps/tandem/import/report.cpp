@@ -31,6 +31,12 @@ void ImportReport::add_difference(const std::string& where, const std::string& w
     add_once(differences_, Line{where, what, here});
 }
 
+void ImportReport::change_texts(const std::function<std::string(std::string)>& change) {
+    for (auto& file : files_) file = change(file.string());
+    for (auto* lines : {&tasks_, &differences_})
+        for (Line& line : *lines) line = {change(line.where), change(line.what), change(line.here)};
+}
+
 void ImportReport::print(const std::filesystem::path& output, const char* page, const char* imported,
                          bool as_json) const {
     const std::string differences =

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,9 @@ class ImportReport {
     void add_task(const std::string& where, const std::string& what, const std::string& command);
     /// `where`: FILE:LINE or a file. `what`: the setting there. `here`: its effect in Tandem. Ignores repeated lines.
     void add_difference(const std::string& where, const std::string& what, const std::string& here);
+
+    /// Replaces each text and the name of each file by what `change` returns.
+    void change_texts(const std::function<std::string(std::string)>& change);
 
     /// `page`: the page of the documentation with the differences that all `imported` files have.
     void print(const std::filesystem::path& output, const char* page, const char* imported,

@@ -324,7 +324,8 @@ int rtm_import(const RtmImportOptions& options) {
                             (setup.output / "rtc.conf").string());
     if (!options.link.empty()) add_interceptor(setup, options.link);
     write_setup(setup, report);
-    folder.keep();
+    folder.publish();
+    report.change_texts([&](std::string text) { return folder.with_place(std::move(text)); });
     report.print(folder.output(), "host/rtm/DIFFERENCES.md", "rtc.conf files", options.json);
     return 0;
 }

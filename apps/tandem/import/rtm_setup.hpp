@@ -26,7 +26,7 @@ struct CreatedRtc {
 struct RtmSetup {
     std::filesystem::path installation; ///< absolute; base of relative names in rtc.conf
     std::filesystem::path conf;         ///< absolute; empty if there is none
-    std::filesystem::path output;       ///< DIR/rtm, absolute
+    std::filesystem::path output;       ///< DIR/rtm, or the folder that becomes it; absolute
     std::vector<std::filesystem::path> load_path;
     std::vector<std::string> modules; ///< entries of manager.modules.preload
     std::string modules_origin;       ///< place of these entries in rtc.conf

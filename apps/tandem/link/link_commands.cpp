@@ -27,7 +27,8 @@ void add_profile(CLI::App& link, Action& selected) {
         ->type_name("FILE");
     command->add_option("--type", options->type, "component type, if the RTC's module has several")
         ->type_name("NAME");
-    command->add_option("--link", options->link, "name of the link (the name of DIR)")->type_name("NAME");
+    command->add_option("--link", options->link, "name of the link (the names of both components)")
+        ->type_name("NAME");
     command
         ->add_option(
             "--property", options->properties,

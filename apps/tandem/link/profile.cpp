@@ -15,9 +15,9 @@
 #include "host/text/join.hpp"
 #include "proxy/adaptor/property_check.hpp"
 #include "proxy/wire/signature_match.hpp"
+#include "shm/os/link_name.hpp"
+#include "shm/segment/segment_file.hpp"
 
-#include <algorithm>
-#include <cctype>
 #include <coil/Properties.h>
 #include <filesystem>
 #include <map>
@@ -213,15 +213,6 @@ class JoinFolder {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-// Names of links are file names in shared memory.
-std::string as_link_name(std::string text) {
-    std::replace_if(
-        text.begin(), text.end(), [](unsigned char c) { return !(std::isalnum(c) || c == '-' || c == '_'); },
-        '_');
-    if (text.starts_with('-')) text.front() = '_';
-    return text.substr(0, 60);
-}
-
 /// Returns the ports of AdaptorComp: the mirrors and its own port.
 json adaptor_ports(const link::PortTable& table, const std::set<std::string>& event_ports) {
     json ports = describe_mirrors(table, event_ports);
@@ -323,11 +314,13 @@ void print_report(const json& report, const std::string& folder) {
 } // namespace
 
 int link_profile(const LinkProfileOptions& options) {
+    if (!options.link.empty()) shm::check_link_name(options.link);
     const ComponentPair components = find_component_pair(options);
     const fs::path out =
         options.out.empty() ? fs::path(components.opros.name + "-" + components.type) : options.out;
-    JoinFolder folder(out, as_link_name(options.link.empty() ? components.opros.name + "-" + components.type
-                                                             : options.link));
+    JoinFolder folder(out, options.link.empty()
+                               ? shm::as_link_name(components.opros.name + "-" + components.type)
+                               : options.link);
     for (const auto& property : options.properties) folder.add_property(property);
     auto notes = folder.write_rtc_conf(components);
     folder.write_application(components, {}, {});

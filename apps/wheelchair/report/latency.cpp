@@ -13,6 +13,7 @@ namespace tandem::wheelchair {
 namespace {
 constexpr std::size_t table_size = 100;
 constexpr std::size_t start_ticks = 100; // one second
+constexpr double stopping_s = 1.0;       // hosts stop one after the other, at most for this time
 
 /// A thread that wakes on an idle core waits for some microseconds. NaN does not disturb.
 bool is_disturbed(double core_taken) {
@@ -91,8 +92,11 @@ SampleCount count_samples(const std::vector<JoystickRecord>& joystick,
         count.received += count.received == 0 ? 1 : std::lround(r.references_received);
     }
     if (count.received == 0) return count;
+    const auto is_expected = [&](const JoystickRecord& r) {
+        return r.stamp >= first && (r.stamp <= last || r.at < control.back().at - stopping_s);
+    };
     for (const JoystickRecord& r : joystick)
-        if (r.sent > 0 && r.stamp >= first && r.stamp <= last) ++count.sent;
+        if (r.sent > 0 && is_expected(r)) ++count.sent;
     count.lost = count.sent - count.received;
     return count;
 }
@@ -100,6 +104,7 @@ SampleCount count_samples(const std::vector<JoystickRecord>& joystick,
 namespace {
 
 std::string percentiles(const std::vector<double>& us) {
+    if (us.empty()) return fmt::format("{:<39}", "no sample");
     return fmt::format("{:9.2f} {:9.2f} {:9.2f} {:9.2f}", percentile(us, 0.5), percentile(us, 0.99),
                        percentile(us, 0.999), percentile(us, 1.0));
 }
@@ -111,6 +116,10 @@ std::string table_1(const std::vector<LatencyRow>& rows, Samples which) {
     for (const LatencyRow& r : rows) {
         const Statistics s = statistics(values_us(table_samples(r.latencies), which));
         sampled = std::max(sampled, s.samples);
+        if (s.samples == 0) {
+            lines += fmt::format("  {:<8} no sample\n", r.configuration);
+            continue;
+        }
         lines += fmt::format("  {:<8} {:9.2f} {:9.2f} {:9.2f} {:9.2f}\n", r.configuration, s.average,
                              s.deviation, s.min, s.max);
     }
@@ -151,9 +160,11 @@ std::string latency_tables(const std::vector<LatencyRow>& rows) {
     const auto median = [](const LatencyRow& r) {
         return percentile(values_us(without_start(r.latencies)), 0.5);
     };
-    for (std::size_t i = 0; i + 1 < rows.size(); ++i)
+    for (std::size_t i = 0; i + 1 < rows.size(); ++i) {
+        if (rows[i].latencies.empty() || rows.back().latencies.empty()) continue;
         out += fmt::format("  p50 of {} minus p50 of {}: {:+.2f} us\n", rows.back().configuration,
                            rows[i].configuration, median(rows.back()) - median(rows[i]));
+    }
     const auto has_disturbed = [](const LatencyRow& r) {
         const auto samples = without_start(r.latencies);
         return std::any_of(samples.begin(), samples.end(), [](auto s) { return s.disturbed; });

@@ -46,8 +46,8 @@ std::vector<LatencySample> table_samples(const std::vector<LatencySample>& sampl
 struct SampleCount {
     long sent = 0, received = 0, lost = 0;
 };
-/// Counts the references between the first and the last received one. References sent before ControlComp started or
-/// after it ended are not lost.
+/// Counts the references from the first received one on. Those sent before ControlComp started, or in its last second and after
+/// the last received one, are not lost: hosts stop one after the other.
 SampleCount count_samples(const std::vector<JoystickRecord>& joystick,
                           const std::vector<ControlRecord>& control);
 

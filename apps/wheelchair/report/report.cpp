@@ -30,22 +30,27 @@ ordered_json json_of(const std::vector<AcceptanceCheck>& checks) {
     return list;
 }
 
+/// Returns null in place of a figure of no sample.
+ordered_json figure_of(std::size_t samples, double figure) {
+    return samples > 0 ? ordered_json(figure) : ordered_json();
+}
+
 ordered_json json_of(const Statistics& s) {
     return {{"samples", s.samples},
-            {"average_us", s.average},
-            {"deviation_us", s.deviation},
-            {"min_us", s.min},
-            {"max_us", s.max}};
+            {"average_us", figure_of(s.samples, s.average)},
+            {"deviation_us", figure_of(s.samples, s.deviation)},
+            {"min_us", figure_of(s.samples, s.min)},
+            {"max_us", figure_of(s.samples, s.max)}};
 }
 
 void add_latencies(ordered_json& j, const std::vector<LatencySample>& samples, Samples which) {
     const auto us = values_us(without_start(samples), which);
     j["table1"] = json_of(statistics(values_us(table_samples(samples), which)));
     j["latency_us"] = {{"samples", us.size()},
-                       {"p50", percentile(us, 0.5)},
-                       {"p99", percentile(us, 0.99)},
-                       {"p99.9", percentile(us, 0.999)},
-                       {"max", percentile(us, 1.0)}};
+                       {"p50", figure_of(us.size(), percentile(us, 0.5))},
+                       {"p99", figure_of(us.size(), percentile(us, 0.99))},
+                       {"p99.9", figure_of(us.size(), percentile(us, 0.999))},
+                       {"max", figure_of(us.size(), percentile(us, 1.0))}};
 }
 
 // Writes null for times that the traces do not contain.
@@ -103,7 +108,7 @@ Report make_report(std::vector<RunResult> runs, const Options& options) {
     report.lockstep = options.lockstep;
     for (const RunResult& r : runs) {
         const bool step = r.scenario == "step20" && options.joystick_file.empty() && r.host_failures.empty();
-        report.acceptance.push_back(step ? check_step20(r.rows) : std::vector<AcceptanceCheck>{});
+        report.acceptance.push_back(step ? check_step20(r.first_rows()) : std::vector<AcceptanceCheck>{});
     }
     // With --compare, the last run is the mixed one. It is compared with each run of one model.
     for (std::size_t i = 0; runs.size() > 1 && i + 1 < runs.size(); ++i) {
@@ -113,7 +118,7 @@ Report make_report(std::vector<RunResult> runs, const Options& options) {
         if (options.lockstep)
             pair = check_identical(name, runs.back().rows, runs[i].rows);
         else if (runs[i].scenario == "step20")
-            pair = check_similar(name, runs.back().rows, runs[i].rows);
+            pair = check_similar(name, runs.back().first_rows(), runs[i].first_rows());
         report.pairs.insert(report.pairs.end(), pair.begin(), pair.end());
     }
     report.runs = std::move(runs);
@@ -125,7 +130,8 @@ std::string text_of(const Report& report) {
     for (const RunResult& r : report.runs) out += final_pose(r);
     std::vector<LatencyRow> latencies;
     for (const RunResult& r : report.runs)
-        if (!r.latencies.empty()) latencies.push_back({name_of(r.configuration), r.latencies, r.samples});
+        if (!report.lockstep && r.configuration != Configuration::memory)
+            latencies.push_back({name_of(r.configuration), r.latencies, r.samples});
     if (!latencies.empty()) out += latency_tables(latencies);
     for (std::size_t i = 0; i < report.runs.size(); ++i)
         if (!report.acceptance[i].empty())

@@ -126,12 +126,6 @@ Scenario scenario_of(const Options& options) {
     return scenario;
 }
 
-// A drive by hand may last for hours: the report covers its last 6 to 12 minutes. Other runs have a known, short length.
-TraceLimit trace_limit(const Options& options) {
-    constexpr std::size_t ticks = 36'000;
-    return options.drive ? TraceLimit{ticks, options.keep.empty()} : TraceLimit{};
-}
-
 /// A run with hosts. The order of the members matters: the hosts must end before the folder that they write to is
 /// removed.
 class HostedRun {
@@ -139,8 +133,8 @@ class HostedRun {
     HostedRun(const Options& options, Configuration configuration)
         : options_(options), configuration_(configuration), scenario_(scenario_of(options)),
           directory_(options, configuration, program_folder()),
-          traces_(directory_.traces(), trace_limit(options)),
-          progress_(name_of(configuration) + " " + scenario_.name) {}
+          limit_(options.lockstep ? TraceLimit{} : limit_of_run(scenario_.seconds, !options.keep.empty())),
+          traces_(directory_.traces(), limit_), progress_(name_of(configuration) + " " + scenario_.name) {}
 
     ~HostedRun() {
         if (!stopped_) stop_hosts(); // an exception is leaving execute()
@@ -218,6 +212,7 @@ class HostedRun {
             handle_events(supervisor_.watch(50ms));
             if (no_host_running()) return;
             traces_.update();
+            check_long_run();
             if (chair_link_) chair_link_->update(traces_);
             report_consequences();
             progress_.show(scenario_time(), scenario_.seconds);
@@ -226,6 +221,22 @@ class HostedRun {
                 if (host_failures_.empty() && component_missing()) return;
             }
         }
+    }
+
+    /// Checks the references of a long run before their records are dropped, and keeps its first rows.
+    void check_long_run() {
+        if (limit_.records == 0) return;
+        const std::size_t ticks = traces_.hw.dropped() + traces_.hw.records().size();
+        if (ticks / limit_.records == checked_parts_) return;
+        checked_parts_ = ticks / limit_.records;
+        if (count_samples(traces_.joystick.records(), traces_.control.records()).lost != 0)
+            lost_earlier_ = true;
+        if (traces_.hw.dropped() > 0) return;
+        constexpr std::size_t start_rows = 2000;
+        start_ = merge(traces_.hw.records(), traces_.joystick.records(), traces_.control.records(),
+                       scenario_.last_tick());
+        start_.resize(std::min(start_.size(), start_rows));
+        start_.shrink_to_fit();
     }
 
     /// Continues without the link if /dev/shm has no room for it.
@@ -356,18 +367,25 @@ class HostedRun {
     RunResult result() {
         traces_.update();
         report_consequences();
-        RunResult r{configuration_, scenario_.name, scenario_.seconds, {}, {}, {}, host_failures_, failures_};
+        RunResult r{
+            configuration_, scenario_.name, scenario_.seconds, {}, {}, {}, host_failures_, failures_, {}};
         r.rows = merge(traces_.hw.records(), traces_.joystick.records(), traces_.control.records(),
                        scenario_.last_tick());
-        if (traces_.hw.dropped() > 0)
+        if (traces_.hw.dropped() > 0) {
             r.seconds =
                 scenario_.last_tick() * tick_seconds - traces_.hw.records().front().sequence * tick_seconds;
+            r.start = start_;
+        }
         r.samples = count_samples(traces_.joystick.records(), traces_.control.records());
         if (!options_.lockstep)
             r.latencies = latencies(traces_.joystick.records(), traces_.control.records());
         if (host_failures_.empty() && r.samples.lost != 0)
             r.failures.push_back(
                 fmt::format("{} of {} references were lost", r.samples.lost, r.samples.sent));
+        if (host_failures_.empty() && lost_earlier_ && r.samples.lost == 0)
+            r.failures.push_back("references were lost before the last minutes, which the report covers");
+        if (host_failures_.empty() && !r.rows.empty() && r.samples.received == 0)
+            r.failures.push_back("no reference has reached ControlComp");
         if (host_failures_.empty() && !r.complete() && r.failures.empty())
             r.failures.push_back(
                 fmt::format("only {} of {} ticks were recorded", r.rows.size(), scenario_.last_tick() + 1));
@@ -378,6 +396,7 @@ class HostedRun {
     const Configuration configuration_;
     const Scenario scenario_;
     RunDirectory directory_;
+    const TraceLimit limit_;
     ComponentTraces traces_;
     std::optional<ChairLink> chair_link_;
     Supervisor supervisor_;
@@ -385,12 +404,16 @@ class HostedRun {
     Progress progress_;
     std::vector<HostFailure> host_failures_;
     std::vector<std::string> failures_;
+    std::vector<Row> start_; // of a long run
+    std::size_t checked_parts_ = 0;
+    bool lost_earlier_ = false;
     bool stopped_ = false;
 };
 
 RunResult run_in_memory(const Options& options) {
     const Scenario scenario = scenario_of(options);
-    RunResult r{Configuration::memory, scenario.name, scenario.seconds, simulate(scenario), {}, {}, {}, {}};
+    RunResult r{
+        Configuration::memory, scenario.name, scenario.seconds, simulate(scenario), {}, {}, {}, {}, {}};
     const long ticks = static_cast<long>(r.rows.size());
     r.samples = {ticks, ticks, 0};
     return r;

@@ -22,6 +22,9 @@ struct RunResult {
     std::vector<HostFailure> host_failures; // hosts that ended during the run; already printed
     std::vector<std::string> failures;      // one line for each other problem
 
+    std::vector<Row> start; // of a long run: its first 20 s, if `rows` are its last minutes
+
+    const std::vector<Row>& first_rows() const { return start.empty() ? rows : start; }
     bool complete() const; // all ticks of the scenario were recorded
 };
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "plugins/wheelchair/core/plant/parameters.hpp"
 #include "plugins/wheelchair/core/record/records.hpp"
 
 namespace tandem::wheelchair {
@@ -17,6 +18,12 @@ struct TraceLimit {
     std::size_t records = 0;
     bool discard_files = false; ///< also frees the room of the others in the file
 };
+
+/// A run of hours must not grow: of a run in real time that is longer than 12 minutes, the last 6 to 12 minutes are kept.
+inline TraceLimit limit_of_run(double seconds, bool keeps_files) {
+    constexpr std::size_t ticks = 36'000;
+    return seconds > 2 * ticks * tick_seconds ? TraceLimit{ticks, !keeps_files} : TraceLimit{};
+}
 
 /// Reads a component's trace file while the component writes it. The file may not exist yet, and the component may have
 /// been killed. [one thread]

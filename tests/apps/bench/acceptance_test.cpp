@@ -94,7 +94,9 @@ TEST_CASE("Every limit compares cases that there are") {
             return id.starts_with("peer/" + peer.subject + "/");
         });
     };
-    for (const AcceptanceLimit& limit : acceptance_limits(ids)) {
+    const auto limits = acceptance_limits(ids);
+    CHECK_FALSE(limits.empty());
+    for (const AcceptanceLimit& limit : limits) {
         INFO(limit.description << ": " << limit.numerator << ", " << limit.denominator);
         CHECK((has(limit.numerator) && has(limit.denominator)));
     }
@@ -109,6 +111,27 @@ TEST_CASE("A limit without its rows is skipped by name and reason and does not p
     CHECK_THAT(acceptance_text(results), Catch::Contains("of a peer") &&
                                              Catch::Contains("skipped: not installed") &&
                                              Catch::Contains("0 pass, 0 FAIL, 1 skipped"));
+}
+
+TEST_CASE(
+    "A case of Tandem that has failed in each run is not accepted, and neither is a report without figures") {
+    const std::vector<AcceptanceLimit> limits{
+        {"met", Comparison::at_most, 1.2, "tandem/a", "baseline/b"},
+        {"broken", Comparison::at_most, 1.2, "tandem/c", ""},
+        {"of a peer", Comparison::at_least, 6, "peer/x/one-way", "tandem/a"}};
+    const std::vector<Row> good{row("tandem/a", {100}), row("baseline/b", {100})};
+    const auto accepted = [&](Row third) {
+        return is_accepted(check_acceptance(limits, report({good[0], good[1], std::move(third)})));
+    };
+    CHECK(accepted(row("tandem/c", {1})));
+    CHECK(accepted(test::skipped("tandem/c", "needs two cores")));
+    CHECK(accepted(test::skipped("peer/x", "not installed")));
+    CHECK_FALSE(accepted(row("tandem/c", {2})));
+    Row crashed = test::skipped("tandem/c", "side A was ended by signal 11");
+    crashed.runs = {NAN, NAN};
+    CHECK_FALSE(accepted(crashed));
+    CHECK_FALSE(is_accepted(check_acceptance(limits, report({}))));
+    CHECK_FALSE(is_accepted({}));
 }
 
 TEST_CASE("A limit that is missed names its cases, both of a ratio, to be measured again") {

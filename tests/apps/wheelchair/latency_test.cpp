@@ -94,6 +94,28 @@ TEST_CASE("a reference overtaken within a tick is received, one that never arriv
     CHECK(count_samples(joystick, {}).received == 0);
 }
 
+TEST_CASE("references are lost if none arrives any more, but for the last second, in which hosts stop") {
+    std::vector<JoystickRecord> joystick;
+    std::vector<ControlRecord> control;
+    for (int n = 1; n <= 500; ++n) {
+        joystick.push_back(sent(n));
+        control.push_back(received(n, n + 0.1, n <= 200 ? 1 : 0));
+        joystick.back().at = control.back().at = 0.01 * n;
+    }
+    CHECK(count_samples(joystick, control).lost == 199); // 201 to 399
+    control.resize(300);
+    CHECK(count_samples(joystick, control).lost == 0);
+}
+
+TEST_CASE("a configuration without a sample has no figures") {
+    const std::vector<LatencySample> disturbed(300, {900.0, true});
+    const auto text = latency_tables({{"opros", {}, {0, 0, 0}}, {"mixed", disturbed, {300, 300, 0}}});
+    CHECK_THAT(text, Catch::Contains("100 samples"));
+    CHECK_THAT(text, Catch::Contains("  opros    no sample\n"));
+    CHECK_THAT(text, Catch::Contains("  mixed    no sample\n")); // of the undisturbed ones
+    CHECK_THAT(text, !Catch::Contains(" 0.00      0.00      0.00") && !Catch::Contains("p50 of mixed minus"));
+}
+
 TEST_CASE("the tables have a line for each configuration") {
     const auto text = latency_tables({{"opros", std::vector<LatencySample>(300, {1.0}), {300, 300, 0}},
                                       {"mixed", std::vector<LatencySample>(300, {4.5}), {300, 299, 1}}});

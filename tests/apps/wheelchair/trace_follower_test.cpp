@@ -47,3 +47,11 @@ TEST_CASE("a follower with a limit keeps the newest records, and their file stay
     // The writer allocates the file in chunks of 8192 records.
     CHECK(bytes_on_disk(dir / "a.trace") < 4 * 8192 * static_cast<long>(sizeof(JoystickRecord)));
 }
+
+TEST_CASE("a run of hours keeps a bounded number of records, and one of minutes all") {
+    CHECK(limit_of_run(10.0, false).records == 0);
+    CHECK(limit_of_run(720.0, false).records == 0);
+    CHECK(limit_of_run(7200.0, false).records == 36'000);
+    CHECK(limit_of_run(7200.0, false).discard_files);
+    CHECK_FALSE(limit_of_run(7200.0, true).discard_files); // --keep
+}

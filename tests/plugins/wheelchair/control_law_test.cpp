@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include <limits>
+#include <utility>
 
 #include "plugins/wheelchair/core/law/control_law.hpp"
 
@@ -41,9 +42,14 @@ TEST_CASE("a number that is not finite is a fault, latched") {
 }
 
 TEST_CASE("a wheel speed that is not finite is a fault") {
-    Driving d;
-    CHECK(stopped(d.law.tick(1.0, {1.0, 0, d.straight}, {1.0, 0, {not_a_number, 1.0, false, 0, 0}})));
-    CHECK(d.law.state() == ControlState::fault);
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    for (const auto& [left, right] :
+         {std::pair{not_a_number, 1.0}, {1.0, not_a_number}, {infinite, 1.0}, {1.0, -infinite}}) {
+        CAPTURE(left, right);
+        Driving d;
+        CHECK(stopped(d.law.tick(1.0, {1.0, 0, d.straight}, {1.0, 0, {left, right, false, 0, 0}})));
+        CHECK(d.law.state() == ControlState::fault);
+    }
 }
 
 TEST_CASE("a wheel speed 50 ms old is accepted and one 60 ms old is a fault") {

@@ -143,8 +143,8 @@ TEST_CASE("calls of up to 64 MiB cross both ways, and a longer one is refused be
     CHECK(refused.text().find("the call queue takes 67108864") != std::string::npos);
 }
 
-TEST_CASE(
-    "calls without a reply do not wait for the peer and run in order; those beyond 256 wait for a place") {
+TEST_CASE("calls without a reply do not wait for the peer and run in order, and those beyond 256 wait for a "
+          "place") {
     TwoSides sides("send");
     CHECK(sides.a->link.send({"p", "o", "", {}}, soon).status == CallStatus::not_ready);
     Notes notes(*sides.b);

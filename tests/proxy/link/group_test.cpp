@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Who may join a link whose segment is shared with a group of users, and the segment's mode in /dev/shm.
 #include "link_side.hpp"
+#include "tests/support/skip.hpp"
 
 #include <grp.h>
 #include <sys/stat.h>
@@ -22,10 +23,7 @@ std::unique_ptr<LinkSide> side_with_group(shm::Side side, const std::string& nam
 
 TEST_CASE("a link with a group has a segment of mode 0660 that only a side with a group joins") {
     const auto* own_group = getgrgid(getegid());
-    if (own_group == nullptr) {
-        WARN("skipped: this process's group has no name");
-        return;
-    }
+    if (own_group == nullptr) TANDEM_SKIP("this process's group has no name");
     const std::string group = own_group->gr_name, name = unique_name("group");
     const auto first = side_with_group(shm::Side::first, name, group);
     first->link.open();
@@ -42,10 +40,7 @@ TEST_CASE("a link with a group has a segment of mode 0660 that only a side with 
 
 TEST_CASE("a side with a group refuses the segment of a side without one, and an unknown group") {
     const auto* own_group = getgrgid(getegid());
-    if (own_group == nullptr) {
-        WARN("skipped: this process's group has no name");
-        return;
-    }
+    if (own_group == nullptr) TANDEM_SKIP("this process's group has no name");
     const std::string group = own_group->gr_name, name = unique_name("no-group");
     const auto first = adaptor(name);
     first->link.open();

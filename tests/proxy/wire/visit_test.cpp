@@ -51,15 +51,18 @@ TEST_CASE("a visitor's function for the kind is called with the type") {
 }
 
 TEST_CASE("each kind has a name and a size of its C++ type, or none") {
+    // By the character of docs/wire_format.md; other kinds are no numbers.
+    const std::map<char, std::size_t> sizes{{'b', 1}, {'c', 1},  {'y', 1}, {'n', 2}, {'q', 2},
+                                            {'i', 4}, {'u', 4},  {'x', 8}, {'t', 8}, {'f', 4},
+                                            {'d', 8}, {'D', 16}, {'e', 4}};
     for (const Type& type : parse_signature(every_kind).children) {
-        INFO(static_cast<char>(type.kind));
+        const char code = static_cast<char>(type.kind);
+        INFO(code);
         CHECK_FALSE(type_name(type).empty());
-        CHECK(visit_number(type.kind, false, [](auto) { return true; }) == is_number(type.kind));
+        const auto size = sizes.find(code);
+        CHECK(primitive_size(type.kind) == (size == sizes.end() ? 0 : size->second));
+        CHECK(is_number(type.kind) == (size != sizes.end()));
     }
-    CHECK(primitive_size(Kind::boolean) == 1);
-    CHECK(primitive_size(Kind::enumeration) == 4);
-    CHECK(primitive_size(Kind::long_double) == 16);
-    CHECK(primitive_size(Kind::wide_character) == 0);
 }
 
 TEST_CASE("the value of a discriminator is read by its kind") {

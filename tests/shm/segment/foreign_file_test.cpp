@@ -2,6 +2,7 @@
 // Files of other users under names of segments.
 #include "shm/inspect/observer.hpp"
 #include "tests/shm/fixture.hpp"
+#include "tests/support/skip.hpp"
 
 #include <fcntl.h>
 #include <fstream>
@@ -15,6 +16,7 @@ using Catch::Contains;
 namespace {
 
 constexpr uid_t other_user = 12345;
+constexpr auto only_root = "only root can make a file of another user";
 
 /// Creates an empty file under the name of a generation, and gives it to another user. Returns false if only root could.
 bool foreign_file(const std::string& link, std::uint64_t generation, gid_t group = other_user,
@@ -36,7 +38,7 @@ bool exists(const std::string& link, std::uint64_t generation) {
 
 TEST_CASE("a file of another user raises no generation, and is neither changed nor removed") {
     const Link link;
-    if (!foreign_file(link.name, 999)) return;
+    if (!foreign_file(link.name, 999)) TANDEM_SKIP(only_root);
     auto first = join(link, Side::first);
     CHECK(first->generation() == 1);
     CHECK(first->ignored_file() == segment_path(link.name, 999));
@@ -60,7 +62,7 @@ TEST_CASE("a file of another user raises no generation, and is neither changed n
 TEST_CASE("if a file of another user has the next name, both sides meet in a later generation") {
     const Link link;
     for (const std::uint64_t generation : {1, 2, 3})
-        if (!foreign_file(link.name, generation)) return;
+        if (!foreign_file(link.name, generation)) TANDEM_SKIP(only_root);
     const auto first = join(link, Side::first), second = join(link, Side::second);
     CHECK(first->generation() > 3);
     CHECK(second->generation() == first->generation());
@@ -70,7 +72,7 @@ TEST_CASE("if a file of another user has the next name, both sides meet in a lat
 
 TEST_CASE("the largest generation in the name of a file of another user splits no link") {
     const Link link;
-    if (!foreign_file(link.name, max_generation)) return;
+    if (!foreign_file(link.name, max_generation)) TANDEM_SKIP(only_root);
     const auto first = join(link, Side::first), second = join(link, Side::second);
     CHECK(first->generation() == second->generation());
     CHECK(observe(link.name)->segment.readability == Readability::readable);
@@ -93,7 +95,7 @@ TEST_CASE("a generation behind the last one is refused in one line") {
 }
 
 TEST_CASE("a symbolic link or a folder of another user under the name of a segment is ignored") {
-    if (geteuid() != 0) return; // only root can make one
+    if (geteuid() != 0) TANDEM_SKIP(only_root);
     const Link link;
     const std::string symbolic = segment_path(link.name, 1), folder = segment_path(link.name, 2);
     std::filesystem::create_symlink("/etc/passwd", symbolic);
@@ -109,7 +111,7 @@ TEST_CASE("a symbolic link or a folder of another user under the name of a segme
 
 TEST_CASE("a file of another user counts if it has the group of the link") {
     const auto* daemon = getgrnam("daemon");
-    if (geteuid() != 0 || daemon == nullptr) return; // root may name any group
+    if (geteuid() != 0 || daemon == nullptr) TANDEM_SKIP("only root may name the group daemon");
     const Link link;
     JoinOptions options = small();
     options.group = "daemon";
@@ -127,7 +129,7 @@ TEST_CASE("a list of segments contains all of this user, and a bounded number of
     const Link link;
     std::size_t before = 0;
     observe_segments(&before);
-    if (!foreign_file(link.name, 1000)) return;
+    if (!foreign_file(link.name, 1000)) TANDEM_SKIP(only_root);
     for (std::uint64_t generation = 1001; generation < 1000 + 2 * max_foreign; ++generation)
         foreign_file(link.name, generation);
     const auto first = join(link, Side::first);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Segments whose chunks take memory when they are first used.
 #include "tests/shm/fixture.hpp"
+#include "tests/support/skip.hpp"
 
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -74,10 +75,7 @@ TEST_CASE("a sparse segment takes memory only for its objects and for used chunk
 }
 
 TEST_CASE("a sparse segment takes no more memory in a process that locks its future memory") {
-    if (mlockall(MCL_FUTURE) != 0) {
-        WARN("this user may not lock memory");
-        return;
-    }
+    if (mlockall(MCL_FUTURE) != 0) TANDEM_SKIP("this user may not lock memory");
     {
         SparsePair pair; // both sides are mapped here
         CHECK(pair.memory() < layout::arenas_begin + 256 * 1024);

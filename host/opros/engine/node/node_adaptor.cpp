@@ -3,6 +3,7 @@
 
 #include "host/text/join.hpp"
 #include "host/text/split_names.hpp"
+#include "shm/os/link_name.hpp"
 
 #include <fmt/format.h>
 #include <map>
@@ -49,14 +50,10 @@ std::string interfaces(const NodePart& part) {
 } // namespace
 
 std::string node_link(const NodePart& part) {
-    constexpr std::size_t max_length = 64, max_node = 32;
+    constexpr std::size_t max_node = 32;
     const std::string node = "-" + part.node.substr(0, max_node);
     // The application's name is what is cut: two nodes on one machine need two links.
-    std::string name = part.application.name.substr(0, max_length - node.size()) + node;
-    constexpr const char* allowed = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-";
-    for (std::size_t at; (at = name.find_first_not_of(allowed)) != std::string::npos;) name[at] = '_';
-    if (name.front() == '-') name.front() = '_'; // not an option of a command
-    return name;
+    return shm::as_link_name(part.application.name.substr(0, shm::max_link_name - node.size()) + node);
 }
 
 void add_node_adaptor(NodePart& part, const std::vector<std::filesystem::path>& plugin_dirs) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/import/import_folder.hpp"
 #include "tests/apps/tandem/program.hpp"
 #include "tests/apps/tandem/shell.hpp"
 #include "tests/host/opros/engine/folder.hpp"
@@ -6,6 +7,8 @@
 #include <algorithm>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <sys/wait.h>
+#include <unistd.h>
 
 using Catch::Contains;
 using tandem::test::tandem_program;
@@ -361,6 +364,27 @@ TEST_CASE("tandem rtm import adds an InterceptorComp that shares all RTCs, and k
     const auto again = installation.import();
     CHECK(again.exit_code == 1);
     CHECK_THAT(again.errors, Contains("moved/rtm exists and is not empty"));
+}
+
+TEST_CASE("an import that is killed leaves no folder that the next one refuses or tandem run starts") {
+    const Installation installation(pair_conf);
+    const pid_t child = fork();
+    if (child == 0) { // by _exit no destructor runs, as after SIGKILL
+        const tandem::command::ImportFolder folder(installation.output(), installation.robot(), "rtm");
+        std::ofstream(folder.path() / "rtc.conf") << "half";
+        _exit(0);
+    }
+    int status = 1;
+    waitpid(child, &status, 0);
+    REQUIRE(status == 0);
+    CHECK(!fs::exists(installation.output()));
+    const auto result = installation.import({"--json"});
+    INFO(result.output << result.errors);
+    REQUIRE(result.exit_code == 0);
+    const std::string written = installation.output() / "rtm/rtc.conf";
+    CHECK(result.json()["files"] == nlohmann::json::array({written}));
+    CHECK(fs::exists(written));
+    CHECK(std::distance(fs::directory_iterator(installation.path()), {}) == 2); // robot and moved
 }
 
 TEST_CASE("tandem rtm import refuses bad input with one line that names the place, and leaves no files") {

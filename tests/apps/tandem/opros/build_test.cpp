@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/apps/tandem/opros/old_component.hpp"
 #include "tests/apps/tandem/shell.hpp"
+#include "tests/support/skip.hpp"
 
 #include <algorithm>
 
@@ -345,7 +346,8 @@ TEST_CASE("the old headers of OpenCV are found where OpenCV 4 is, and its packag
 }
 
 TEST_CASE("a component in the style of OpenCV 1 writes a video and reads its pictures again") {
-    if (!fs::exists("/usr/include/opencv4/opencv2/videoio/videoio_c.h")) return;
+    if (!fs::exists("/usr/include/opencv4/opencv2/videoio/videoio_c.h"))
+        TANDEM_SKIP("libopencv-dev is not installed");
     const Folder folder;
     folder.write(
         "Eye/Eye.cpp",

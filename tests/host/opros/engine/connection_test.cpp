@@ -88,8 +88,8 @@ TEST_CASE("a connection without a port's name is left out and the others are mad
     CHECK(recorder(application, "P").last_number == 1);
 }
 
-TEST_CASE(
-    "a connection that is listed again is one error with the line of the first; values are delivered once") {
+TEST_CASE("a connection that is listed again is one error with the line of the first, and values are "
+          "delivered once") {
     const Folder folder;
     folder.component("M", "maker");
     folder.component("P", "printer");

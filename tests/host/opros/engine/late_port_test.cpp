@@ -125,7 +125,7 @@ TEST_CASE("a connection that was refused is made when one of its ports comes bac
     }
 }
 
-TEST_CASE("a service that is removed and added again is called again; in between the call fails") {
+TEST_CASE("a service that is removed and added again is called again, and in between the call fails") {
     const Folder folder;
     Application application(two_components(folder, Folder::connect("service", "M", "math", "P", "math")),
                             test_options(folder));

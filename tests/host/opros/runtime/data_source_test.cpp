@@ -2,6 +2,7 @@
 #include "tests/host/opros/runtime/test_sources.hpp"
 #include "tests/support/allocations.hpp"
 #include "tests/support/membarrier.hpp"
+#include "tests/support/skip.hpp"
 
 #include <InputDataPort.h>
 
@@ -379,10 +380,7 @@ TEST_CASE(
     for (int i = 0; i < 100; ++i) REQUIRE(take());
     std::thread([&] { port.rehearse(); }).join();
     CHECK(source.repeats == 0); // it is another thread that reads
-    if (!tandem::test::mutexes_have_owners()) {
-        WARN("the rest is skipped: membarrier(2) is not permitted");
-        return;
-    }
+    if (!tandem::test::mutexes_have_owners()) TANDEM_SKIP("membarrier(2) is not permitted");
     std::vector<double> decoded = values;
     source.ready = true;
     const long before = allocations();

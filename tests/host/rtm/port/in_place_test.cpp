@@ -3,6 +3,7 @@
 #include "host/rt/rehearsal.hpp"
 #include "tests/host/rtm/manager_fixture.hpp"
 #include "tests/support/membarrier.hpp"
+#include "tests/support/skip.hpp"
 #include <deque>
 #include <rtm/CdrRingBuffer.h>
 #include <rtm/InPlaceBuffer.h>
@@ -154,10 +155,7 @@ TEST_CASE(
     }
     std::thread([&] { ports.in.rehearse(); }).join();
     CHECK(ports.buffer->read_rehearsals == 0); // it is another thread that reads
-    if (!tandem::test::mutexes_have_owners()) {
-        WARN("the rest is skipped: membarrier(2) is not permitted");
-        return;
-    }
+    if (!tandem::test::mutexes_have_owners()) TANDEM_SKIP("membarrier(2) is not permitted");
     const auto counts = ports.buffer->counts;
     ports.received.data.length(0);
     ports.in.rehearse();

@@ -5,6 +5,7 @@
 #include "tests/host/rtm/remote_host.hpp"
 #include "tests/shm/small_shm.hpp"
 #include "tests/support/allocations.hpp"
+#include "tests/support/skip.hpp"
 #include <fcntl.h>
 #include <fstream>
 #include <rtm/CORBA_RTCUtil.h>
@@ -156,10 +157,7 @@ TEST_CASE("The segment of a connection has no name once both ends are there") {
 }
 
 TEST_CASE("Where /dev/shm has no room messages go by calls, and none is lost") {
-    if (!tandem::shm::test::enter_small_shm()) {
-        WARN("skipped: this user may not mount a /dev/shm of his own");
-        return;
-    }
+    if (!tandem::shm::test::enter_small_shm()) TANDEM_SKIP("this user may not mount a /dev/shm of his own");
     RingConnection connection;
     connection.put(1);
     connection.put(2, 500000); // 2 MB, of 1 MiB

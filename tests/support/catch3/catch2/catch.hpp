@@ -8,6 +8,7 @@ using Catch::Approx;
 
 namespace Catch {
 
+using TestEventListenerBase = EventListenerBase;
 using Matchers::EndsWith;
 using Matchers::Predicate;
 using Matchers::StartsWith;
