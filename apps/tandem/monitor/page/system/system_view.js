@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Changes the system: activates components, connects ports, sets parameters, and undoes the last changes.
 import {KeyedList, make, setAttributes, setClass, setText} from '../dom.js';
+import {tellFailure} from '../top.js';
 import {propertiesIn, showProperties} from './connection_properties.js';
 import {ParametersView} from './parameters_view.js';
 import {actionsFor, componentsIn, connectionsIn, jsonIn, portLabel, propertiesAgain, rtcConfOf, whyNot} from './system.js';
@@ -167,6 +168,7 @@ export class SystemView {
       answer.classList.toggle('bad', bad);
       setText(answer, text);
     }
+    tellFailure('system', bad, text);
   }
 
   /** Carries out a change, says what became of it, and keeps how to undo it: {text, request}. Returns whether it was done. */

@@ -91,6 +91,20 @@ test("a mistyped parameter is refused in words that name it, and the value that 
   await page.waitForFunction(() => document.querySelector('#parameters input[aria-label="gain of default"]')?.value === "2");
 });
 
+test("what was refused stays in view in every view, until it is closed", async () => {
+  const failure = page.locator("#failure");
+  assert.match(await failure.textContent(), /^✕ Set gain of PartRtc0 to much: /);
+  for (const view of ["control", "graph", "ticks"]) {
+    await page.locator(`#${view}-anchor`).click();
+    await page.evaluate(() => scrollTo(0, document.documentElement.scrollHeight));
+    const box = await failure.boundingBox();
+    assert.ok(box.y >= 0 && box.y + box.height < 400, `${view}: ${JSON.stringify(box)}`);
+  }
+  await failure.getByRole("button").click();
+  assert.equal(await failure.isVisible(), false);
+  await page.locator("#control-anchor").click();
+});
+
 test("saving over a system needs consent, and the copy of a system is a folder for tandem run", async () => {
   await page.locator("#system-save-name").fill(link);
   await click("Save");

@@ -185,6 +185,8 @@ test("an emergency stop without a connection is not swallowed", async () => {
   await watcher.waitForSelector("#drive-bar:not([hidden])");
   await watcher.locator("#emergency").click();
   await watcher.waitForFunction(() => /^✕ Emergency stop failed: not sent/.test(document.querySelector("#drive-answer").textContent));
+  await watcher.locator("#events-anchor").click();
+  assert.match(await watcher.locator("#failure:not([hidden])").textContent(), /^✕ Emergency stop failed: not sent/);
   await watcher.close();
 });
 
