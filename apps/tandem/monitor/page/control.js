@@ -3,6 +3,7 @@
 // requests.
 import {setText} from './dom.js';
 import {socketAddress} from './server.js';
+import {tellFailure} from './top.js';
 
 const find = (id) => document.getElementById(id);
 
@@ -109,8 +110,9 @@ export class ControlPanel {
       this.token = ''; // asking again would be in vain: each start of the monitor has another token
       sessionStorage.removeItem('tandem-token');
     }
-    setText(find('token-answer'), open || !this.connection.refused ? ''
-      : '✕ the monitor does not accept this token; it prints a new one at each start');
+    const refused = !open && this.connection.refused;
+    setText(find('token-answer'), refused ? '✕ the monitor does not accept this token; it prints a new one at each start' : '');
+    tellFailure('token', refused, '✕ This page controls nothing: the monitor does not accept its token. Enter the one that it has printed under Control.');
   }
 
   /** Called with each state: connects, and shows the recording. */
@@ -125,7 +127,7 @@ export class ControlPanel {
     const file = state.control.recording;
     setText(find('record'), file ? '■ Stop recording' : '● Record all links shown');
     find('record').setAttribute('aria-pressed', file !== '');
-    setText(find('recording'), this.recorded ?? (file ? `recording to ${file}` : ''));
+    setText(find('recording'), this.recorded ?? (file ? `recording to ${file.split('/').pop()} in the monitor's folder` : ''));
   }
 
   async run(command) {
@@ -135,6 +137,7 @@ export class ControlPanel {
     answer(`${command}: waiting for the answer ...`);
     const reply = await this.connection.ask({op: 'rtm', command, arguments: words});
     answer(`${reply.ok ? '✓' : '✕'} ${command}: ${reply.text.trim() || (reply.ok ? 'done' : 'failed')}`);
+    tellFailure('command', !reply.ok, `✕ ${command} ${words.join(' ')}: ${reply.text.trim() || 'failed'}`);
   }
 
   async record() {
@@ -147,6 +150,7 @@ export class ControlPanel {
       const reply = await this.connection.ask({op: 'record', on, links});
       this.recorded = !reply.ok ? `✕ ${on ? 'not recorded' : 'not stopped'}: ${reply.text}` : on ? null : `✓ recorded to ${reply.text}`;
     }
+    tellFailure('record', this.recorded?.startsWith('✕'), this.recorded);
     this.show(this.state);
   }
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The emergency stop of the wheelchair: sends it, and says whether the chair has confirmed it, and what to do next.
 import {setClass, setText} from './dom.js';
+import {tellFailure} from './top.js';
 
-const patience = 2000; // ms for the chair to confirm, which takes a few ticks
+const patience = 1000; // ms for the chair to confirm; it takes some ticks, and the monitor looks five times a second
 const otherWay = 'Stop the chair by its own switch, or press Ctrl-C where wheelchair runs.';
 const inEffect = '■ Emergency stop. It lasts until the run ends. To drive again: press Ctrl-C where wheelchair runs, and start it again.';
 
@@ -16,6 +17,7 @@ export class EmergencyStop {
   tell(bad, text) {
     setClass(this.answer, bad ? 'bad' : '');
     setText(this.answer, text);
+    tellFailure('emergency stop', bad, text);
   }
 
   async stop() {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lays out the graph with elkjs, which works in a worker.
+import {loading} from './elk.js';
 import {boldWidthOf, describe, labelOf, widestStateOf, widthOf} from './texts.js';
 import {hasDetail} from './topology.js';
 import {fittingScale} from './zoom.js';
@@ -80,19 +81,6 @@ function placesOf(layout) {
   }
   return {places, edges, width: layout.width, height: layout.height};
 }
-
-/** Loads elkjs with its layout in a worker. It defines the global `ELK`. */
-async function loadElk() {
-  try {
-    await import('../lib/elk-api.js');
-  } catch {
-    throw new Error('elkjs is not there; build Tandem where npm can install it');
-  }
-  return new globalThis.ELK({workerUrl: new URL('../lib/elk-worker.min.js', import.meta.url).href});
-}
-
-const loading = loadElk(); // together with the page: the first state waits for nothing
-loading.catch(() => {}); // layOut() tells why
 
 /**
  * Returns the places of all parts. A small graph is drawn larger, as far as the page has room. The gaps between layers fill the rest

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shows on every view whether a recording or a replay runs, and lists the recordings for download and replay.
 import {KeyedList, make, setAttributes, setText} from '../dom.js';
+import {tellFailure} from '../top.js';
 
 const pause = 1000; // ms between two requests
 const find = (id) => document.getElementById(id);
@@ -65,6 +66,7 @@ export class RecordingsView {
     this.refused = null;
     const reply = await this.panel.connection.ask({op: 'replay', on: true, file});
     this.refused = reply.ok ? null : `✕ not replayed: ${reply.text}`;
+    tellFailure('replay', !reply.ok, this.refused);
     this.showReplay();
   }
 

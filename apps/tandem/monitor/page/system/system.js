@@ -31,6 +31,8 @@ export function componentsIn(tree, hosts) {
     }
   const opros = (hosts ?? []).flatMap((host) => (host.components ?? []).map((component) => (
     {model: 'OPRoS', name: component.name, id: `${host.pid}/${component.name}`, state: component.state, ports: []})));
+  const names = new Set(opros.map(({name}) => name)); // InterceptorComp gives its RTC the name of the OPRoS component
+  for (const component of components.values()) component.mirrored = names.has(component.name);
   return [...components.values(), ...opros].sort((a, b) => a.name.localeCompare(b.name));
 }
 

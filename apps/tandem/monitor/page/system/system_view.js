@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Changes the system: activates components, connects ports, sets parameters, and undoes the last changes.
 import {KeyedList, make, setAttributes, setClass, setText} from '../dom.js';
+import {groupsOf} from '../graph/groups.js';
+import {tellFailure} from '../top.js';
 import {propertiesIn, showProperties} from './connection_properties.js';
 import {ParametersView} from './parameters_view.js';
 import {actionsFor, componentsIn, connectionsIn, jsonIn, portLabel, propertiesAgain, rtcConfOf, whyNot} from './system.js';
 
 const find = (id) => document.getElementById(id);
 const mostRows = 200, mostUndone = 50;
+const mostAtOnce = 16; // components of one request
 const stateSigns = {ACTIVE: '✓ ', ERROR: '✕ ', UNREACHABLE: '✕ '};
+
+const canStart = (component) => !component.mirrored && ['activate', 'start'].includes(actionsFor(component)[0]?.[0]);
 
 const button = (text, act) => {
   const element = make('button', 'raised', text);
@@ -30,6 +35,7 @@ export class SystemView {
     });
     find('system-filter').addEventListener('input', () => this.draw());
     find('system-refresh').addEventListener('click', () => this.read());
+    find('system-activate').addEventListener('click', () => this.activateAll());
     find('system-save').addEventListener('click', () => this.save());
     for (const undo of document.querySelectorAll('.system-undo')) undo.addEventListener('click', () => this.undo());
   }
@@ -73,10 +79,30 @@ export class SystemView {
     const listed = this.components.filter(({name, model}) => `${name} ${model}`.toLowerCase().includes(wanted));
     this.rows.show(listed.slice(0, mostRows), ({model, id}) => `${model} ${id}`);
     setText(find('system-count'), listed.length > mostRows ? `${listed.length - mostRows} more: filter them` : '');
+    this.showActivate(listed.filter(canStart));
     const connections = connectionsIn(this.components);
     this.connected.show(connections, ({id}) => id);
     find('system-connections-empty').hidden = connections.length > 0;
     this.fillPorts();
+  }
+
+  /** `waiting`: the listed components that are not active. */
+  showActivate(waiting) {
+    this.waiting = waiting;
+    find('system-activate').hidden = waiting.length < 2;
+    setText(find('system-activate'), `Activate ${waiting.length} components`);
+  }
+
+  /** Activates the RT-Components and starts the OPRoS components that are listed, until one fails. */
+  async activateAll() {
+    for (const members of groupsOf(this.waiting, ({model}) => model).values()) {
+      const [command, label, undo] = actionsFor(members[0])[0];
+      for (let i = 0; i < members.length; i += mostAtOnce) {
+        const part = members.slice(i, i + mostAtOnce), names = part.map(({name}) => name).join(', ');
+        const request = (of) => ({...this.request(part[0], of), arguments: part.map(({id}) => id)});
+        if (!await this.act(request(command), `${label} ${names}`, {text: `${undo} ${names}`, request: request(undo)})) return;
+      }
+    }
   }
 
   createRow() {
@@ -88,9 +114,9 @@ export class SystemView {
   }
 
   updateRow(row, component) {
-    const {name, model, state} = component, [head, of, now, actions] = row.children;
+    const {name, model, mirrored, state} = component, [head, of, now, actions] = row.children;
     setText(head, name);
-    setText(of, model);
+    setText(of, mirrored ? `${model}, mirrored` : model);
     setText(now, `${stateSigns[state] ?? ''}${state}`);
     setClass(now, state === 'ERROR' || state === 'UNREACHABLE' ? 'bad' : '');
     if (row.state === state) return;
@@ -167,6 +193,7 @@ export class SystemView {
       answer.classList.toggle('bad', bad);
       setText(answer, text);
     }
+    tellFailure('system', bad, text);
   }
 
   /** Carries out a change, says what became of it, and keeps how to undo it: {text, request}. Returns whether it was done. */

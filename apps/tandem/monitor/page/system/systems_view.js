@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The systems in the monitor's folder (`--systems`): creates, saves, starts and stops them, and shows their logs.
 import {KeyedList, make, setClass, setText} from '../dom.js';
+import {tellFailure} from '../top.js';
 import {jsonIn} from './system.js';
 import {hostGroups, partsOf, runText} from './systems.js';
 
@@ -128,6 +129,7 @@ export class SystemsView {
   tell(ok, text) {
     setClass(find('systems-answer'), ok === false ? 'bad' : '');
     setText(find('systems-answer'), `${ok === null ? '' : ok ? '✓ ' : '✕ '}${text}`);
+    tellFailure('systems', ok === false, `✕ ${text}`);
   }
 
   showLog(name) {

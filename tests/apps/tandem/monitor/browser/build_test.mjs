@@ -71,10 +71,10 @@ test("the ten components are connected in a chain, activated and configured", as
     await page.locator("#connect-form button").click();
     await textIs("#system-answer", new RegExp(`^✓ Connect ${ports[0]} and ${ports[1]}: done`));
   }
-  for (let i = 0; i < 5; ++i) {
-    await click(`Activate PartRtc${i}`);
-    await textIs("#system-answer", new RegExp(`^✓ Activate PartRtc${i}: done`));
-  }
+  await click("Activate PartRtc0");
+  await textIs("#system-answer", /^✓ Activate PartRtc0: done/);
+  await page.getByRole("button", { name: /^Activate \d+ components$/ }).click();
+  for (let i = 0; i < 5; ++i) await row(`PartRtc${i}`, "RTM").locator("td", { hasText: "✓ ACTIVE" }).waitFor();
   for (const [of, model, label, value] of [["PartRtc0", "RTM", "gain of default", "2"], ["PartComp0", "OPRoS", "amplitude of property", "3"]]) {
     await row(of, model).getByRole("button", { name: `Parameters of ${of}` }).click();
     await page.getByLabel(label).fill(value);
@@ -89,6 +89,20 @@ test("a mistyped parameter is refused in words that name it, and the value that 
   await page.getByLabel("gain of default").press("Enter");
   await textIs("#system-answer", /^✕ Set gain of PartRtc0 to much: [\s\S]*gain/);
   await page.waitForFunction(() => document.querySelector('#parameters input[aria-label="gain of default"]')?.value === "2");
+});
+
+test("what was refused stays in view in every view, until it is closed", async () => {
+  const failure = page.locator("#failure");
+  assert.match(await failure.textContent(), /^✕ Set gain of PartRtc0 to much: /);
+  for (const view of ["control", "graph", "ticks"]) {
+    await page.locator(`#${view}-anchor`).click();
+    await page.evaluate(() => scrollTo(0, document.documentElement.scrollHeight));
+    const box = await failure.boundingBox();
+    assert.ok(box.y >= 0 && box.y + box.height < 400, `${view}: ${JSON.stringify(box)}`);
+  }
+  await failure.getByRole("button").click();
+  assert.equal(await failure.isVisible(), false);
+  await page.locator("#control-anchor").click();
 });
 
 test("saving over a system needs consent, and the copy of a system is a folder for tandem run", async () => {

@@ -127,6 +127,16 @@ test("another chair in place of the one that has ended is not shown silently", a
   await two.close();
 });
 
+test("the emergency stop stays in view on a phone while the page is scrolled", async () => {
+  const phone = await browser.open(monitor.url, { viewport: { width: 390, height: 844 } });
+  await phone.locator("#chair-anchor").click();
+  await phone.waitForSelector("#drive-bar:not([hidden])");
+  await phone.evaluate(() => scrollTo(0, document.documentElement.scrollHeight));
+  const { y, height } = await phone.locator("#emergency").boundingBox();
+  assert.ok(y >= 0 && y + height < 844, `from ${y} to ${y + height}`);
+  await phone.close();
+});
+
 test("a browser that is lost while it drives stops the chair", async () => {
   const other = await startBrowser([]);
   const driver = await other.open(monitor.url);
@@ -185,6 +195,8 @@ test("an emergency stop without a connection is not swallowed", async () => {
   await watcher.waitForSelector("#drive-bar:not([hidden])");
   await watcher.locator("#emergency").click();
   await watcher.waitForFunction(() => /^✕ Emergency stop failed: not sent/.test(document.querySelector("#drive-answer").textContent));
+  await watcher.locator("#events-anchor").click();
+  assert.match(await watcher.locator("#failure:not([hidden])").textContent(), /^✕ Emergency stop failed: not sent/);
   await watcher.close();
 });
 

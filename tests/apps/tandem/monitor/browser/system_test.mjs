@@ -186,3 +186,36 @@ test("a token is kept when the connection is lost before the monitor has answere
   });
   assert.deepEqual(refused, [false, true]);
 });
+
+test("the RTC that stands for an OPRoS component is told apart from it", async () => {
+  const listed = await page.evaluate(async () => {
+    const { componentsIn } = await import("./system/system.js"), rtc = (instance) => ({ instance, address: instance, state: "INACTIVE", ports: [] });
+    return componentsIn([{ kind: "manager", components: [rtc("Arm"), rtc("Gripper0")] }], [{ pid: 1, components: [{ name: "Arm", state: "READY" }] }])
+      .map(({ model, name, mirrored }) => `${model} ${name} ${Boolean(mirrored)}`);
+  });
+  assert.deepEqual(listed, ["RTM Arm true", "OPRoS Arm false", "RTM Gripper0 false"]);
+});
+
+test("one button activates all listed components, sixteen in a request, until one fails", async () => {
+  const found = await page.evaluate(async () => {
+    const { SystemView } = await import("./system/system_view.js"), sent = [];
+    let refused = "";
+    const view = new SystemView({ open: true, ask: async ({ op, command, arguments: names }) => {
+      if (["activate", "start", "deactivate", "stop"].includes(command)) sent.push(`${op} ${command} ${names.length} ${names[0]}`);
+      return { ok: command !== refused, text: "" };
+    } });
+    view.readOnce = async () => {};
+    view.components = [...Array.from({ length: 18 }, (_, i) => ({ model: "RTM", name: `Rtc${i}`, id: `r${i}`, state: i < 17 ? "INACTIVE" : "ACTIVE", ports: [] })),
+      { model: "OPRoS", name: "Arm", id: "1/Arm", state: "READY", ports: [] }];
+    view.draw();
+    const label = document.getElementById("system-activate").textContent;
+    await view.activateAll();
+    await view.undo();
+    refused = "activate";
+    await view.activateAll();
+    return { label, sent, failure: document.getElementById("failure").textContent };
+  });
+  assert.equal(found.label, "Activate 18 components");
+  assert.deepEqual(found.sent, ["rtm activate 16 r0", "rtm activate 1 r16", "opros start 1 1/Arm", "opros stop 1 1/Arm", "rtm activate 16 r0"]);
+  assert.match(found.failure, /^✕ Activate Rtc0, Rtc1, .*: failed/);
+});
