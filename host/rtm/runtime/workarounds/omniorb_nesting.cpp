@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bounds how deep values and types of a request may nest, before two functions of omniORB 4.2 and 4.3 that do not. Each reads an
-// `any` within another one twice, so that the time doubles with each level, and a TypeCode by recursion, with a copy for each
-// level. omniORB calls them through the dynamic symbol table, which finds the definitions in this library first.
+// Limits how deep the values and types of a request may nest. omniORB 4.2 and 4.3 have no limit: they read an `any` within
+// another one twice, so that the time doubles with each level, and a TypeCode by recursion, with a copy for each level. They
+// call both functions through the dynamic symbol table, which finds the definitions in this library first.
 #include <dlfcn.h>
 #include <omniORB4/CORBA.h>
 
 namespace {
 
-constexpr int most_nested_anys =
-    8; // the time is up to 2^8 times that of one any; the profiles of RTCs nest 2
-constexpr int most_type_levels = 32; // the types of OpenRTM-aist's data ports have up to 10
+// The time is up to 2^8 times that of one any. Profiles of RTCs have 2 levels.
+constexpr int most_nested_anys = 8;
+// Data types of OpenRTM-aist have up to 10 levels.
+constexpr int most_type_levels = 32;
 
-/// Counts the calls of one function that this thread has not left; refuses one too many.
+/// Counts the calls of one function that this thread has not left. Throws MARSHAL if there are too many.
 class Level {
   public:
     Level(int& count, int most) : count_(count) {
@@ -26,9 +27,11 @@ class Level {
     int& count_;
 };
 
+/// Returns omniORB's function. In a program that loads omniORB before this library, it is not the next one but the first.
 template <class Function>
 Function* original(const char* symbol) {
-    return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, symbol));
+    void* const next = dlsym(RTLD_NEXT, symbol);
+    return reinterpret_cast<Function*>(next != nullptr ? next : dlsym(RTLD_DEFAULT, symbol));
 }
 
 } // namespace
