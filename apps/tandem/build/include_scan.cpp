@@ -120,7 +120,10 @@ class Scanner {
         for (const auto* form : {&on_drive, &versioned})
             if (const std::string path = meant; std::regex_match(path, found, *form)) meant = found[1].str();
         if (auto skeleton = skeleton_without_services(name); !skeleton.empty()) meant = std::move(skeleton);
-        if (meant == name) return find_idl(name);
+        if (meant == name) {
+            result.unknown.insert(name);
+            return find_idl(name);
+        }
         result.forwards[name] = meant;
         resolve(meant, place);
     }

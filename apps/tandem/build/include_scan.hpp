@@ -15,7 +15,8 @@ struct IncludeScan {
     /// another case or in a folder that is not searched, or a header made from an IDL file.
     std::map<std::string, std::string> forwards;
     std::vector<std::filesystem::path>
-        idl_files; ///< for the headers above, neither in the component's folder nor its idl/
+        idl_files;                 ///< for the headers above, neither in the component's folder nor its idl/
+    std::set<std::string> unknown; ///< names that no folder of the component contains
     std::set<std::string> pkg_config; ///< pkg-config modules of the libraries whose headers are included
     bool old_opencv = false;          ///< whether a C header of OpenCV 1 or 2 is included
 };

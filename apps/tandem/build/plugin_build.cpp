@@ -58,7 +58,7 @@ std::string package_of_neighbours(const NeighbourHeaders& neighbours, const std:
 // Returns the advice that follows the first error of a failed step.
 std::string advice(const std::string& error, const Plugin& plugin, const PluginBuildOptions& options) {
     const auto& folder = options.folder;
-    BuildFacts facts{folder, options.pkg_config, options.libraries};
+    BuildFacts facts{folder, options.pkg_config, options.libraries, "/", plugin.includes.unknown};
     for (const auto& module : used_modules(plugin)) facts.pkg_config.push_back(module);
     for (const auto& name : plugin.linked.names) facts.libraries.push_back(name);
     std::string text = find_remedy(error, facts);
@@ -154,11 +154,12 @@ bool add_neighbours(const std::string& output, const fs::path& folder, Neighbour
 }
 
 // Adds the folders of installed libraries with missing headers, and prints notes. Returns whether it added one.
-bool add_installed(const std::string& output, std::map<fs::path, InstalledLibrary>& installed) {
+bool add_installed(const std::string& output, Plugin& plugin) {
     bool added = false;
     for (const auto& header : missing_headers(output)) {
-        const auto library = find_installed_library(header);
-        if (!library || !installed.emplace(library->include_dir, *library).second) continue;
+        auto library = find_installed_library(header);
+        if (!library) library = find_installed_beside(header, plugin.includes.unknown);
+        if (!library || !plugin.installed.emplace(library->include_dir, *library).second) continue;
         print_note("tandem: using {} of {}{}\n", header, library->include_dir.string(),
                    library->package.empty() ? "" : ", package " + library->package);
         added = true;
@@ -247,10 +248,9 @@ void compile(Plugin& plugin, const PluginBuildOptions& options, const fs::path& 
         output =
             run_cmake({"cmake", "--build", bin, "--parallel", processors}, options.timeout_s, plugin.name);
         if (!output) return;
-        if (!add_neighbours(*output, options.folder, plugin.neighbours) &&
-            !add_installed(*output, plugin.installed) && !add_cv_h(*output, plugin) &&
-            !add_names(*output, plugin.missing_names) && !add_sources(*output, options, plugin) &&
-            !add_libraries(*output, plugin.linked))
+        if (!add_neighbours(*output, options.folder, plugin.neighbours) && !add_installed(*output, plugin) &&
+            !add_cv_h(*output, plugin) && !add_names(*output, plugin.missing_names) &&
+            !add_sources(*output, options, plugin) && !add_libraries(*output, plugin.linked))
             fail(*output, plugin, options, "does not compile");
     }
 }

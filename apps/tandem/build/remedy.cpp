@@ -120,6 +120,18 @@ std::string for_package(const std::string& header, const HeaderPackage& package,
     return fmt::format("if {}/{} is meant: apt install {}", package.folder, header, package.package);
 }
 
+// Returns the remedy for a header whose name headers of several packages have: the package of another such header that the
+// component includes; "" if there is none.
+std::string for_header_beside(const std::string& header, const BuildFacts& facts) {
+    if (header.find('/') != std::string::npos) return "";
+    for (const auto& name : facts.unknown)
+        if (const auto package = find_package_of_header(name);
+            package && !package->certain && !is_installed(package->package, facts))
+            return fmt::format("if it belongs to {}/{}, which the component includes, too: apt install {}",
+                               package->folder, name, package->package);
+    return "";
+}
+
 std::string for_header(const std::string& header, const BuildFacts& facts) {
     const auto& folder = facts.folder;
     if (auto options = options_for(header, folder); !options.empty()) return options;
@@ -137,6 +149,7 @@ std::string for_header(const std::string& header, const BuildFacts& facts) {
         return header + " belongs to " + origin +
                ", which Debian does not package: build it, then add its headers with -I DIR and its library "
                "with -l NAME";
+    if (auto beside = for_header_beside(header, facts); !beside.empty()) return beside;
     const auto checkout = find_checkout(folder);
     if (const auto modules = missing_submodules(checkout); !checkout.empty() && !modules.empty())
         return fmt::format("{} of this repository {} not checked out: git -C {} submodule update --init",

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@ struct BuildFacts {
     std::filesystem::path folder;                     ///< of the component
     std::vector<std::string> pkg_config, libraries{}; ///< modules, and names after -l
     std::filesystem::path root = "/";                 ///< folder with usr/ and var/
+    std::set<std::string> unknown{}; ///< included names that no folder of the component contains
 };
 
 /// Returns advice for an error of the compiler or linker, for example the Debian package or the neighbouring

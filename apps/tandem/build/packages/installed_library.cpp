@@ -59,6 +59,17 @@ std::optional<InstalledLibrary> find_installed_library(const std::string& header
     return InstalledLibrary{dir, "", "", {}};
 }
 
+std::optional<InstalledLibrary>
+find_installed_beside(const std::string& header, const std::set<std::string>& names, const fs::path& root) {
+    if (header.find('/') != std::string::npos) return std::nullopt;
+    for (const auto& name : names) {
+        if (name.find('/') != std::string::npos) continue;
+        auto library = find_installed_library(name, root);
+        if (library && is_file(library->include_dir / header)) return library;
+    }
+    return std::nullopt;
+}
+
 Paths installed_files(std::string_view package, const fs::path& root) {
     const auto folder = root / "var/lib/dpkg/info";
     Paths files;

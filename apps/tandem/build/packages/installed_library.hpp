@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,6 +22,12 @@ struct InstalledLibrary {
 /// Returns the library with a header that the compiler does not find. `root`: folder with usr/ and var/.
 std::optional<InstalledLibrary> find_installed_library(const std::string& header,
                                                        const std::filesystem::path& root = "/");
+
+/// Returns the library whose folder contains the header beside one of `names`, which the same component includes. The header has
+/// no folder in its name, and headers of several packages may have this name.
+std::optional<InstalledLibrary> find_installed_beside(const std::string& header,
+                                                      const std::set<std::string>& names,
+                                                      const std::filesystem::path& root = "/");
 
 /// Returns the files of a Debian package; none if it is not installed.
 std::vector<std::filesystem::path> installed_files(std::string_view package,

@@ -140,6 +140,38 @@ TEST_CASE("an installed header is found in a folder that the compiler does not s
     CHECK(!find_installed_library("arm/Joint.h", root.path()));
 }
 
+TEST_CASE("a header whose name several packages have belongs to the library of the other included headers") {
+    const Folder root;
+    const std::set<std::string> names{"Eigen/LU", "chain.hpp", "chaindynparam.hpp", "string"};
+    const auto remedy = [&] {
+        return find_remedy(missing("chain.hpp"), {root.path() / "Comp", {}, {}, root.path(), names});
+    };
+    CHECK(package_of("chain.hpp") == "");
+    CHECK(remedy() ==
+          "if it belongs to kdl/chaindynparam.hpp, which the component includes, too: apt install "
+          "liborocos-kdl-dev");
+    CHECK(!find_installed_beside("chain.hpp", names, root.path()));
+    root.write("usr/include/kdl/chaindynparam.hpp", "");
+    CHECK(!find_installed_beside("chain.hpp", names, root.path()));
+    root.write("usr/include/kdl/chain.hpp", "");
+    const auto kdl = find_installed_beside("chain.hpp", names, root.path());
+    REQUIRE(kdl);
+    CHECK(kdl->include_dir == root.path() / "usr/include/kdl");
+    CHECK(kdl->pkg_config == "orocos-kdl");
+    CHECK(!find_installed_beside("chain.hpp", {"chain.hpp", "string"}, root.path()));
+    root.write("var/lib/dpkg/info/liborocos-kdl-dev:amd64.list", "/.\n");
+    CHECK_THAT(remedy(), Catch::StartsWith("if you have the library"));
+}
+
+TEST_CASE("the names that a component includes and does not contain are known") {
+    const Folder folder;
+    const auto source =
+        folder.write("Comp/Comp.cpp", "#include \"Arm.h\"\n#include <chain.hpp>\n#include \"arm.h\"\n");
+    folder.write("Comp/Arm.h", "#include <chaindynparam.hpp>\n");
+    CHECK(scan_includes(folder.path() / "Comp", {source}, {}).unknown ==
+          std::set<std::string>{"chain.hpp", "chaindynparam.hpp"});
+}
+
 TEST_CASE("a header of the component does not add the pkg-config module of a package with one of its name") {
     const Folder folder;
     const auto source = folder.write("Comp/Comp.cpp", "#include \"json/json.h\"\n#include <ode/ode.h>\n");
