@@ -7,8 +7,8 @@
 
 namespace {
 
-// The time is up to 2^8 times that of one any. Profiles of RTCs have 2 levels.
-constexpr int most_nested_anys = 8;
+// The time is up to 2^10 times that of one any. A link carries 8 levels, and names a ninth in its message.
+constexpr int most_nested_anys = 10;
 // Data types of OpenRTM-aist have up to 10 levels.
 constexpr int most_type_levels = 32;
 
