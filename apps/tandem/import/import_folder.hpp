@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "apps/tandem/import/report.hpp"
 #include "apps/tandem/system/staged_folder.hpp"
 
 #include <filesystem>
-#include <string>
+#include <functional>
 
 namespace tandem::command {
 
-/// Creates one side of a folder for tandem run, DIR/opros or DIR/rtm: it gets this name by publish(), when it is complete. Leaves
-/// the other side and other contents of DIR unchanged.
+/// Creates one side of a folder for tandem run, DIR/opros or DIR/rtm, which gets this name when it is complete. Leaves the other
+/// side and other contents of DIR unchanged.
 class ImportFolder {
   public:
     /// `output` empty: NAME-tandem in the current folder, with NAME from the imported folder. Throws std::runtime_error
@@ -19,10 +20,10 @@ class ImportFolder {
 
     const std::filesystem::path& output() const { return output_; } ///< as the user wrote it
     const std::filesystem::path& path() const { return path_; } ///< absolute; of the side while it is written
-    const std::filesystem::path& place() const { return place_; } ///< absolute; of the published side
-    /// Returns the text with place() instead of path().
-    std::string with_place(std::string text) const;
-    void publish() { staged_.publish(); }
+
+    /// Calls write(), which writes the files to path() and reports them, and publishes the side. Exceptions and the report then
+    /// name the files of the published side.
+    void complete(ImportReport& report, const std::function<void()>& write);
 
   private:
     std::filesystem::path output_;

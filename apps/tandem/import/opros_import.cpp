@@ -336,13 +336,9 @@ int opros_import(const OprosImportOptions& options) {
     const EngineConfig config = read_engine_config(engine_dir, report);
     const auto application = engine::read_application_profile(find_application(config, options.application));
     ImportFolder folder(options.output, options.folder, "opros");
-    try {
+    folder.complete(report, [&] {
         write_import({engine_dir, config, application, options.link}, folder.path(), report);
-    } catch (const std::exception& error) {
-        throw std::runtime_error(folder.with_place(error.what()));
-    }
-    folder.publish();
-    report.change_texts([&](std::string text) { return folder.with_place(std::move(text)); });
+    });
     report.print(folder.output(), "host/opros/README.md", "applications", options.json);
     return 0;
 }

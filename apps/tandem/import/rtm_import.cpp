@@ -277,6 +277,29 @@ void write_setup(const RtmSetup& setup, ImportReport& report) {
     copy_settings_files(setup, report);
 }
 
+/// `system`: the RTSystem profile; empty if there is none.
+void write_import(RtmSetup& setup, const fs::path& system, const RtmImportOptions& options,
+                  ImportReport& report) {
+    if (!setup.conf.empty()) {
+        read_rtc_conf(setup, report);
+        check_modules(setup, report);
+        tell_other_languages(setup, report);
+    } else {
+        setup.settings.push_back({"manager.shutdown_auto", "NO", ""});
+        report.add_difference(
+            system.string(), "no rtc.conf",
+            "RTCs are in no name server and can be reached only from this machine; for OpenRTM-aist's "
+            "behaviour, set corba.nameservers: localhost and corba.endpoints: all");
+    }
+    if (!system.empty()) add_system(setup, read_rts_profile(system), options.activate, report);
+    if (setup.components.empty())
+        report.add_task((setup.conf.empty() ? system : setup.conf).string(), "no RTC is created here",
+                        "add RTCs to manager.components.precreate in " +
+                            (setup.output / "rtc.conf").string());
+    if (!options.link.empty()) add_interceptor(setup, options.link);
+    write_setup(setup, report);
+}
+
 } // namespace
 
 void copy_settings_files(const RtmSetup& setup, ImportReport& report) {
@@ -306,26 +329,7 @@ int rtm_import(const RtmImportOptions& options) {
     ImportFolder folder(options.output, options.folder, "rtm");
     setup.output = folder.path();
     ImportReport report;
-    if (!setup.conf.empty()) {
-        read_rtc_conf(setup, report);
-        check_modules(setup, report);
-        tell_other_languages(setup, report);
-    } else {
-        setup.settings.push_back({"manager.shutdown_auto", "NO", ""});
-        report.add_difference(
-            system.string(), "no rtc.conf",
-            "RTCs are in no name server and can be reached only from this machine; for OpenRTM-aist's "
-            "behaviour, set corba.nameservers: localhost and corba.endpoints: all");
-    }
-    if (!system.empty()) add_system(setup, read_rts_profile(system), options.activate, report);
-    if (setup.components.empty())
-        report.add_task((setup.conf.empty() ? system : setup.conf).string(), "no RTC is created here",
-                        "add RTCs to manager.components.precreate in " +
-                            (setup.output / "rtc.conf").string());
-    if (!options.link.empty()) add_interceptor(setup, options.link);
-    write_setup(setup, report);
-    folder.publish();
-    report.change_texts([&](std::string text) { return folder.with_place(std::move(text)); });
+    folder.complete(report, [&] { write_import(setup, system, options, report); });
     report.print(folder.output(), "host/rtm/DIFFERENCES.md", "rtc.conf files", options.json);
     return 0;
 }
