@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "host/process/run_command.hpp"
 #include "tests/support/skip.hpp"
 
 #include <catch2/catch.hpp>
@@ -10,12 +11,13 @@
 #include <fstream>
 #include <locale>
 #include <string>
+#include <system_error>
 
 namespace tandem::test {
 
 /// While it exists, this process has the locale that a component may set by std::locale::global(std::locale("de_DE.UTF-8")):
-/// numbers have a decimal comma, and points between thousands. For the C library that takes a locale that is made here with
-/// localedef; where there is none, a test goes on without it, and says so.
+/// numbers have a decimal comma, and points between thousands. The C library needs a locale that localedef makes here; without
+/// it, a test continues with the C++ library's and is listed as skipped.
 class CommaLocale {
   public:
     CommaLocale() : before_(std::locale::global(std::locale(std::locale::classic(), new Comma))) {
@@ -44,9 +46,12 @@ class CommaLocale {
             << "LC_NUMERIC\ndecimal_point \"<U002C>\"\nthousands_sep \"<U002E>\"\n"
                "grouping 3;3\nEND LC_NUMERIC\n";
         // Exit code 1: made, with a warning for each category that is not defined.
-        const std::string command = "localedef -c -i " + folder_ + "/comma -f UTF-8 " + folder_ +
-                                    "/xx_XX.UTF-8 >" + folder_ + "/log 2>&1";
-        [[maybe_unused]] const int code = std::system(command.c_str());
+        try {
+            process::run_command(
+                {"localedef", "-c", "-i", folder_ + "/comma", "-f", "UTF-8", folder_ + "/xx_XX.UTF-8"});
+        } catch (const std::system_error&) {
+            return false; // not installed
+        }
         setenv("LOCPATH", folder_.c_str(), 1);
         const bool is_set = std::setlocale(LC_NUMERIC, "xx_XX.UTF-8") != nullptr;
         unsetenv("LOCPATH");
