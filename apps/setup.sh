@@ -85,7 +85,7 @@ build_preset() {
     local preset=$1
     shift
     cd "$root"
-    export CCACHE_BASEDIR=${CCACHE_BASEDIR:-$root} # what was compiled in another clone is found
+    export CCACHE_BASEDIR=${CCACHE_BASEDIR:-$root} # ccache then finds what another clone has compiled
     if [ ! -f "build/$preset/build.ninja" ]; then
         say "configuring preset $preset"
         cmake --preset "$preset" "${cmake_options[@]}" >/dev/null

@@ -36,7 +36,7 @@ void check_in_small_shm(const Body& body) {
     Child child([&] { return enter_small_shm() ? body() : not_permitted; });
     const int result = child.wait();
     if (result == not_permitted)
-        TANDEM_SKIP_PART("this process may not mount a file system of its own");
+        TANDEM_SKIP_PART("this process may not mount a separate file system");
     else
         CHECK(result == 0);
 }
@@ -227,7 +227,7 @@ TEST_CASE("an object of a sparse segment that finds no memory is an error that n
     });
 }
 
-TEST_CASE("another user joins a segment of its own whichever side is free and cannot remove this one") {
+TEST_CASE("another user joins a separate segment whichever side is free and cannot remove this one") {
     if (geteuid() != 0) TANDEM_SKIP("only root can become another user");
     Link link;
     auto first = join(link, Side::first);

@@ -13,7 +13,7 @@
 namespace tandem::shm::test {
 
 /// What one side has noted. flowing_ns: when it had received a record and a reply for the first time since it
-/// joined, and `flowing` the generation. (Whoever comes into an empty directory begins with generation 1
+/// joined, and `flowing` the generation. (The first side in an empty directory begins with generation 1
 /// again.)
 struct Noted {
     std::atomic<std::uint64_t> joined_ns{0}, generation{0}, flowing{0}, flowing_ns{0};

@@ -75,7 +75,7 @@ Type type_in_any(const Parse& parse) {
     }
 }
 
-/// An any crosses as its value's signature and the value's CDR, a message of its own.
+/// An any crosses as the signature of its value and the value's CDR, which is a separate message.
 void any_to_cdr(cdrStream& from, wire::CdrWriter& to) {
     const AnyDepth depth;
     const CORBA::TypeCode_var code = CORBA::TypeCode::unmarshalTypeCode(from);

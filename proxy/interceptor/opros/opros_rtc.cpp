@@ -154,8 +154,8 @@ void OprosRtc::fail() {
     for (int cycle = 0; cycle < 2; ++cycle) context_->tick();
 }
 
-// The context carries out each transition in this thread, whose callbacks then tell the component nothing. One that
-// it refuses because another is under way, whoever asks for that one is told by the component's next report.
+// The context carries out each transition in this thread, whose callbacks then do not call the component. If the context
+// refuses a transition because another one is under way, the component's next report gives its result.
 bool OprosRtc::follow() {
     const std::lock_guard following(follow_mutex_);
     if (finalized_) return true;

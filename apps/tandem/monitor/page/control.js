@@ -112,7 +112,7 @@ export class ControlPanel {
     }
     const refused = !open && this.connection.refused;
     setText(find('token-answer'), refused ? '✕ the monitor does not accept this token; it prints a new one at each start' : '');
-    tellFailure('token', refused, '✕ This page controls nothing: the monitor does not accept its token. Enter the one that it has printed under Control.');
+    tellFailure('token', refused, '✕ This page controls nothing, because the monitor does not accept its token. Enter the printed token in the view Control.');
   }
 
   /** Called with each state: connects, and shows the recording. */

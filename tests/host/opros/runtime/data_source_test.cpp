@@ -52,7 +52,7 @@ TEST_CASE("a source is told how many values the queue holds, also when a profile
     CHECK(source.depth == 3);
 }
 
-TEST_CASE("values of sources fill the queue as pushed ones do, whoever looks at it and when") {
+TEST_CASE("values of sources fill the queue like pushed ones, whichever reader checks it, and at any time") {
     const auto policy = GENERATE(OPROS_FIFO, OPROS_LAST, OPROS_LIFO, OPROS_UFIFO);
     const unsigned int limit = GENERATE(1, 4);
     const int sources = GENERATE(1, 2);
