@@ -3,8 +3,10 @@
 
 #include <catch2/catch.hpp>
 
-#include <atomic>
+#include <algorithm>
+#include <array>
 #include <cstdint>
+#include <cstring>
 #include <optional>
 #include <thread>
 #include <vector>
@@ -21,6 +23,14 @@ bool put(Ring& ring, int value) {
 }
 
 std::optional<int> take(Ring& ring) { return ring.take() ? std::optional(ring.last().at(0)) : std::nullopt; }
+
+std::optional<int> take_short(Ring& ring) {
+    int value = 0;
+    if (!ring.take() || ring.taken_short() == nullptr || ring.taken_short()->size() != sizeof value)
+        return std::nullopt;
+    std::memcpy(&value, ring.taken_short()->bytes(), sizeof value);
+    return value;
+}
 
 std::optional<int> peek(Ring& ring) { return ring.peek() ? std::optional(ring.last().at(0)) : std::nullopt; }
 
@@ -104,26 +114,93 @@ TEST_CASE("values of a value ring are found by offset, and both ends can go back
     for (int i = 0; i < 4; ++i) CHECK(ring.at(ring.readers(i)).at(0) == 9 + i);
 }
 
+TEST_CASE("a value ring gives short and other values in order, with their bytes") {
+    Ring ring(3);
+    for (int value = 1; value <= 4; ++value) {
+        CHECK_FALSE(ring.publish_short(&value, sizeof value));
+        CHECK_FALSE(put(ring, -value));
+        CHECK(take_short(ring) == value);
+        CHECK(take(ring) == -value);
+        CHECK(ring.taken_short() == nullptr);
+    }
+    const std::vector<unsigned char> bytes(Ring::ShortValue::max_size + 1, 7);
+    for (std::size_t size = 0; size <= Ring::ShortValue::max_size; ++size) {
+        ring.publish_short(bytes.data(), size);
+        CHECK(ring.peek());
+        REQUIRE(ring.take());
+        REQUIRE(ring.taken_short() != nullptr);
+        CHECK(ring.taken_short()->size() == size);
+        CHECK(
+            std::equal(bytes.begin(), bytes.begin() + static_cast<long>(size), ring.taken_short()->bytes()));
+    }
+}
+
+TEST_CASE("a short value touches no value of a value ring, only its cell") {
+    Ring ring(3);
+    for (int value = 0; value < 20; ++value) {
+        ring.publish_short(&value, sizeof value);
+        CHECK(take_short(ring) == value);
+    }
+    for (std::uint32_t i = 0; i < ring.depth() + 2; ++i) CHECK(ring.at(i).capacity() == 0);
+}
+
+TEST_CASE("values of a value ring are found by offset after the short ones were settled") {
+    Ring ring(4);
+    const auto settle = [&] {
+        ring.settle([&](std::uint32_t index, const Ring::ShortValue& value) {
+            ring.at(index).resize(1);
+            std::memcpy(ring.at(index).data(), value.bytes(), value.size());
+        });
+    };
+    for (int value = 1; value <= 4; ++value) // 2 is a long one
+        if (value == 2)
+            put(ring, value);
+        else
+            ring.publish_short(&value, sizeof value);
+    const int taken = GENERATE(0, 1, 2, 3, 4);
+    for (int value = 1; value <= taken; ++value) CHECK(ring.take());
+    settle();
+    CHECK(ring.taken_short() == nullptr);
+    for (int i = -taken; i < 4 - taken; ++i) CHECK(ring.at(ring.readers(i)).at(0) == taken + i + 1);
+    for (int i = -1; i >= taken - 4; --i) CHECK(ring.at(ring.writers(i)).at(0) == 5 + i);
+    for (int i = 0; i < taken; ++i) ring.untake();
+    for (int value = 1; value <= 4; ++value) CHECK(take(ring) == value);
+}
+
 // Each value is whole and comes once, in order. What was not read was reported as dropped.
 TEST_CASE("no value of a value ring is torn, repeated or lost uncounted while both threads run") {
     const std::size_t depth = GENERATE(1U, 2U, 7U);
     const bool peeks = GENERATE(false, true);
     ValueRing<std::vector<std::uint64_t>> ring(depth);
     constexpr std::uint64_t last = 200'000;
-    constexpr std::size_t words = 12;
+    constexpr std::size_t words = 12, short_words = 6;
     std::uint64_t dropped = 0, received = 0, newest = 0, faults = 0;
+    const auto is_short = [](std::uint64_t value) { return value / 64 % 3 != 0; }; // some in a row
     std::thread writer([&] {
+        std::array<std::uint64_t, short_words> bytes{};
         for (std::uint64_t value = 1; value <= last; ++value) {
+            if (is_short(value)) {
+                bytes.fill(value);
+                if (ring.publish_short(bytes.data(), sizeof bytes)) ++dropped;
+                continue;
+            }
             ring.next().assign(words, value);
             if (ring.publish()) ++dropped;
         }
     });
+    std::vector<std::uint64_t> value;
     while (newest != last) {
         if (peeks) ring.peek();
         if (!ring.take()) continue;
-        const auto& value = ring.last();
+        if (const auto* bytes = ring.taken_short()) {
+            value.resize(bytes->size() / sizeof value[0]);
+            std::memcpy(value.data(), bytes->bytes(), bytes->size());
+        } else {
+            value = ring.last();
+        }
         ++received;
-        if (value.size() != words || value.front() <= newest) ++faults;
+        if (value.size() != (is_short(value.front()) ? short_words : words) || value.front() <= newest)
+            ++faults;
         newest = value.front();
         for (const std::uint64_t word : value)
             if (word != newest) ++faults;

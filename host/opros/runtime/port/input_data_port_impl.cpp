@@ -5,6 +5,7 @@
 #include "host/rt/rehearsal.hpp"
 
 #include <algorithm>
+#include <typeinfo>
 
 using tandem::rt::rehearsing;
 
@@ -32,7 +33,7 @@ InputDataPortImpl::InputDataPortImpl(InputDataPortInterface& port, DataPortPolic
     choose_way();
 }
 
-void InputDataPortImpl::push(const opros_any& value) {
+void InputDataPortImpl::push(opros_any& value) {
     {
         if (!push_mutex_.lock_unless_rehearsing()) return;
         const tandem::rt::ShortLock lock(push_mutex_, std::adopt_lock);
@@ -45,17 +46,41 @@ void InputDataPortImpl::push(const opros_any& value) {
     if (DataPortListener* listener = listener_.load(std::memory_order_acquire)) listener->arrived();
 }
 
-// A new value gets an object that this port's code has created, and the copy is assigned to it. The given object may belong
-// to a library that is unloaded before this port.
-inline void InputDataPortImpl::push_into_ring(const opros_any& value) {
-    opros_any& next = ring_->next();
-    if (next.empty()) [[unlikely]]
-        next = port_.sample();
+/// Returns the elements of a short vector of numbers of the port's type, else nothing.
+inline std::optional<opros_any::holder_base::Memory> InputDataPortImpl::short_elements(opros_any& value) {
+    opros_any::holder_base* const held = value.held();
+    if (held == nullptr || held->elementBytes() == 0) return std::nullopt;
+    if (pushed_type_ == nullptr) [[unlikely]] {
+        opros_any sample = port_.sample();
+        pushed_type_ = sample.held() != nullptr ? &sample.held()->rtti() : &typeid(void);
+    }
+    if (&held->rtti() != pushed_type_ && held->rtti() != *pushed_type_) return std::nullopt;
+    const auto elements = held->elements();
+    return elements.bytes <= Ring::ShortValue::max_size ? std::optional(elements) : std::nullopt;
+}
+
+inline void InputDataPortImpl::push_into_ring(opros_any& value) {
+    const auto elements = short_elements(value);
     if (rehearsing()) {
         tandem::rt::note_crossings(ring_->published());
         ring_->prefetch_for_publish();
-        for (const void* part : parts_of(next)) __builtin_prefetch(part, 1);
     }
+    // The value of a rehearsal is short, also at a port for long ones.
+    const bool is_long = !elements || (rehearsing() && !ring_->next().empty());
+    if (is_long)
+        push_long(value);
+    else if (!rehearsing())
+        ring_->publish_short(elements->begin, elements->bytes);
+}
+
+// A new value gets an object that this port's code has created, and the copy is assigned to it. The given object may belong
+// to a library that is unloaded before this port.
+void InputDataPortImpl::push_long(const opros_any& value) {
+    opros_any& next = ring_->next();
+    if (next.empty()) [[unlikely]]
+        next = port_.sample();
+    if (rehearsing())
+        for (const void* part : parts_of(next)) __builtin_prefetch(part, 1);
     next = value;
     if (!rehearsing()) ring_->publish(parts_of(next));
 }
@@ -113,9 +138,22 @@ inline opros_any* InputDataPortImpl::pop_from_ring() {
     if (rehearsing()) {
         tandem::rt::note_crossings(ring_->taken());
         ring_->prefetch_for_take();
-        return pool_.lend(decoded_);
+        return pool_.lend(ring_->taken_short() != nullptr ? taken() : decoded_);
     }
-    return ring_->take() ? pool_.lend(ring_->last()) : found_nothing();
+    return ring_->take() ? pool_.lend(taken()) : found_nothing();
+}
+
+/// Returns the value that was taken or peeked at last.
+inline opros_any& InputDataPortImpl::taken() {
+    const Ring::ShortValue* const value = ring_->taken_short();
+    if (value == nullptr) return ring_->last();
+    if (decoded_.empty()) [[unlikely]]
+        decoded_ = port_.sample();
+    opros_any::holder_base& held = *decoded_.held();
+    auto elements = held.elements();
+    if (elements.bytes != value->size()) elements = held.resize(value->size() / held.elementBytes());
+    value->copy_to(elements.begin);
+    return decoded_;
 }
 
 /// Counts a pop that found no value, and returns NULL.
@@ -143,7 +181,7 @@ opros_any* InputDataPortImpl::pop_from_queue() {
 opros_any* InputDataPortImpl::peek() {
     if (!may_have_values_.load(std::memory_order_acquire)) return nullptr;
     const std::lock_guard lock(mutex_);
-    if (ring_) return ring_->peek() ? new opros_any(ring_->last()) : nullptr;
+    if (ring_) return ring_->peek() ? new opros_any(taken()) : nullptr;
     poll_sources();
     return queue_.size() == 0 ? nullptr : new opros_any(queue_.front());
 }
@@ -254,15 +292,14 @@ void InputDataPortImpl::update_hints() {
 void InputDataPortImpl::choose_way() {
     sole_source_ = sources_.size() == 1 && queue_.keeps_order() ? sources_.front() : nullptr;
     const std::size_t depth = queue_.depth();
-    const bool can_use_ring =
-        sources_.empty() && depth != 0 && depth <= tandem::rt::ValueRing<opros_any>::max_depth;
+    const bool can_use_ring = sources_.empty() && depth != 0 && depth <= Ring::max_depth;
     if (can_use_ring && !ring_) move_to_ring();
     if (!can_use_ring && ring_) move_to_queue();
     update_hints();
 }
 
 void InputDataPortImpl::move_to_ring() {
-    ring_ = std::make_unique<tandem::rt::ValueRing<opros_any>>(queue_.depth());
+    ring_ = std::make_unique<Ring>(queue_.depth());
     for (; queue_.size() != 0; queue_.pop()) {
         ring_->next().swap(queue_.front());
         ring_->publish();
@@ -270,7 +307,7 @@ void InputDataPortImpl::move_to_ring() {
 }
 
 void InputDataPortImpl::move_to_queue() {
-    while (ring_->take()) queue_.push().swap(ring_->last());
+    while (ring_->take()) queue_.push().swap(taken());
     ring_.reset();
 }
 

@@ -30,7 +30,7 @@ class InputDataPortImpl {
     InputDataPortImpl(InputDataPortInterface& port, DataPortPolicy policy, unsigned int limit);
 
     /// Stores a copy, releases the locks and calls the listener. In a rehearsal stores nothing.
-    void push(const opros_any& value);
+    void push(opros_any& value);
     /// Returns the next value, which the consumer deletes, or NULL if there is none. In a rehearsal takes nothing: it
     /// returns the source's last value once more, or NULL.
     opros_any* pop();
@@ -56,9 +56,12 @@ class InputDataPortImpl {
 
   private:
     enum class ReadResult { no_value, undecodable, value };
+    using Ring = tandem::rt::ValueRing<opros_any>;
 
     // Require push_mutex_ to be held.
-    void push_into_ring(const opros_any& value);
+    std::optional<opros_any::holder_base::Memory> short_elements(opros_any& value);
+    void push_into_ring(opros_any& value);
+    void push_long(const opros_any& value);
     void push_into_queue(const opros_any& value);
     // Require both mutexes to be held.
     void choose_way();
@@ -73,6 +76,7 @@ class InputDataPortImpl {
     ReadResult read_one(DataPortSource* const& source);
     opros_any* pop_after(ReadResult result);
     opros_any* pop_from_ring();
+    opros_any& taken();
     opros_any* pop_from_queue();
     opros_any* found_nothing();
     void rehearse_reading();
@@ -80,12 +84,13 @@ class InputDataPortImpl {
     static constexpr std::size_t line = 64; // a pushing thread and the consumer write different cache lines
 
     alignas(line) InputDataPortInterface& port_;
-    std::unique_ptr<tandem::rt::ValueRing<opros_any>> ring_; // changes with both mutexes held; NULL: not used
+    std::unique_ptr<Ring> ring_; // changes with both mutexes held; NULL: not used
     // These change with mutex_ held and are read without it.
     std::atomic<bool> may_have_values_{false}, has_polled_sources_{false};
     std::atomic<DataPortListener*> listener_{nullptr};
 
-    alignas(line) tandem::rt::ShortMutex push_mutex_; // for the end of ring_ that writes
+    alignas(line) tandem::rt::ShortMutex push_mutex_; // for the end of ring_ that writes, and the following
+    const std::type_info* pushed_type_ = nullptr;     // of this port; NULL: not yet known
 
     alignas(line) tandem::rt::ShortMutex mutex_; // for all that follows, and the other end of ring_
     opros::DataQueue queue_;
@@ -93,7 +98,8 @@ class InputDataPortImpl {
     DataPortSource* sole_source_ = nullptr;
     std::vector<DataPortSource*> sources_;
     std::set<DataPortSource*> polled_sources_; // those that do not notify the listener
-    opros_any decoded_; // values are decoded here first: a broken one must not damage the queue
+    // Values of sources and short ones of the ring are decoded here first: a broken one must not damage the queue.
+    opros_any decoded_;
     opros::ValuePool pool_;
     unsigned empty_pops_ = 0; // pops that found the ring or the sources empty
     bool queue_is_default_ = false;

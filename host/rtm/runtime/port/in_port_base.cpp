@@ -220,7 +220,7 @@ InPortConnector* InPortBase::findReadable() {
         InPortConnector* const sole = m_fastPath.load(std::memory_order_relaxed);
         if (sole == nullptr) {
             if (InPortConnector* const found = findFirstReadable()) return found;
-        } else if (sole->isReadableInPlace()) {
+        } else if (!sole->getBuffer()->empty()) {
             return sole;
         }
     }

@@ -169,6 +169,31 @@ TEST_CASE("a peeked value of a FIFO stays the next one until it is too old") {
     CHECK(drain(port) == std::vector<int>{2, 3});
 }
 
+TEST_CASE("short and long vectors of a FIFO come whole and in order, also when peeked at or dropped") {
+    InputDataPort<Values> port(OPROS_FIFO, 4);
+    const auto vector = [](std::size_t size) { return Values(size, static_cast<double>(size)); };
+    const auto push = [&](std::size_t size) {
+        Values value = vector(size);
+        port.push(value);
+    };
+    for (std::size_t size = 0; size < 12; ++size) push(size);
+    const std::unique_ptr<opros_any> peeked(port.peek());
+    REQUIRE(peeked);
+    CHECK(port.getContent(*peeked) == vector(8));
+    CHECK(drain(port) == std::vector<Values>{vector(8), vector(9), vector(10), vector(11)});
+    for (const std::size_t size : {7U, 0U, 6U, 2U}) push(size);
+    CHECK(drain(port) == std::vector<Values>{vector(7), vector(0), vector(6), vector(2)});
+    const std::unique_ptr<opros_any> kept([&] {
+        push(3);
+        return port.pop();
+    }());
+    for (const std::size_t size : {5U, 9U}) { // neither overwrites a value that the consumer has
+        push(size);
+        delete port.pop();
+    }
+    CHECK(port.getContent(*kept) == vector(3));
+}
+
 TEST_CASE("values that wait stay in order when a port gets a source, loses it, or gets another queue") {
     InputDataPort<int> port;
     EmptySource source;
@@ -190,11 +215,13 @@ TEST_CASE("values that wait stay in order when a port gets a source, loses it, o
 TEST_CASE("values of one thread arrive whole and in order while sources come and go") {
     InputDataPort<Values> port(OPROS_FIFO, 4);
     constexpr int last = 20'000;
+    // Up to 6 numbers lie in the cells of the ring.
+    const auto size_of = [](int number) { return static_cast<std::size_t>(1 + number % 9); };
     std::atomic<bool> done{false};
     std::thread pusher([&] {
-        Values value(8);
+        Values value;
         for (int i = 1; i <= last; ++i) {
-            value.assign(8, i);
+            value.assign(size_of(i), i);
             port.push(value);
         }
     });
@@ -210,7 +237,9 @@ TEST_CASE("values of one thread arrive whole and in order while sources come and
     int faults = 0;
     while (newest != last)
         for (const Values& value : drain(port)) {
-            if (value.size() != 8 || value.front() != value.back() || value.front() <= newest) ++faults;
+            const auto number = static_cast<int>(value.front());
+            if (value.size() != size_of(number) || value.front() != value.back() || value.front() <= newest)
+                ++faults;
             newest = value.front();
         }
     done = true;

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The core patterns of the ring, the doorbell, the call queue and the short mutex, each with an outcome that must not happen.
+"""The core patterns of the rings, the doorbell, the call queue and the short mutex, each with an outcome that must not happen.
 
 An access is written as in the code that the pattern names. `spare`: accesses (thread, position) each of which may lose its order
 in this pattern: the others suffice, or the code has the order for another pattern. None: the test does not look for them.
@@ -54,6 +54,25 @@ RING = [
             [[store("filled_for", 2), fence("release"), store("content", 9)],
              [load("content_read", "content"), fence("acquire"), load("filled_for_read", "filled_for")]],
             lambda r, m: r["content_read"] == 9 and r["filled_for_read"] == 1, filled_for=1),
+]
+
+# The word of a cell is 1 while its value is to be read. The writer takes it away by 2, the reader takes it by 3.
+CELLS = [
+    pattern("a value whose word was read is whole",
+            "BasicCellRing::publish_content(), take()",
+            [[store("bytes", 1), store("word", 1, "release")],
+             [load("word_read", "word", "acquire"), load("bytes_read", "bytes")]],
+            lambda r, m: r["word_read"] == 1 and r["bytes_read"] == 0),
+    pattern("a short value that the reader could take was not overwritten while it was copied",
+            "BasicCellRing::take_away_oldest(), try_take()",
+            [[exchange("before", "word", 2, "acquire"), store("bytes", 9)],
+             [load("bytes_read", "bytes"), compare_exchange("taken", "word", 1, 3, "release")]],
+            lambda r, m: r["taken"] == 1 and r["bytes_read"] == 9, word=1),
+    pattern("a cell that was read is not filled before the reader has copied it",
+            "BasicCellRing::publish_content(), try_take()",
+            [[load("word_read", "word", "acquire"), store("bytes", 9)],
+             [load("bytes_read", "bytes"), compare_exchange("taken", "word", 1, 3, "release")]],
+            lambda r, m: r["word_read"] == 3 and r["bytes_read"] == 9, word=1),
 ]
 
 AWAKE, POLLING, ASLEEP = 0, 1, 2
@@ -172,4 +191,4 @@ MUTEX = [
             lambda r, m: r["state_read"] == 0 and r["data_read"] == 0, state=1),
 ]
 
-PATTERNS = RING + DOORBELL + CALLS + MUTEX
+PATTERNS = RING + CELLS + DOORBELL + CALLS + MUTEX

@@ -142,8 +142,9 @@ class MutantRun {
         return place.file.substr(place.file.rfind('/') + 1) + ":" + std::to_string(place.line);
     }
     std::string line_of(const Place& place) const {
-        const auto shm = place.file.rfind("shm/");
-        std::ifstream file(root_ + "/" + (shm == std::string::npos ? place.file : place.file.substr(shm)));
+        // A header has another path in each build folder.
+        const auto room = std::min(place.file.rfind("shm/"), place.file.rfind("host/"));
+        std::ifstream file(root_ + "/" + (room == std::string::npos ? place.file : place.file.substr(room)));
         std::string line;
         for (std::uint32_t i = 0; i < place.line; ++i) std::getline(file, line);
         line.erase(0, line.find_first_not_of(' '));

@@ -4,6 +4,7 @@
 #include "host/rt/cycle_lines.hpp"
 #include "host/rt/rehearsal.hpp"
 #include <algorithm>
+#include <array>
 #include <coil/stringutil.h>
 #include <cstring>
 #include <rtm/CopyBytes.h>
@@ -24,27 +25,42 @@ constexpr std::size_t longest_rehearsed =
 constexpr bool native_little_endian = __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__;
 constexpr std::size_t time_bytes = sizeof(Time), count_bytes = sizeof(std::uint32_t);
 
+/// A message in the buffer.
+struct EncodedMessage {
+    const unsigned char* bytes;
+    std::size_t size;
+    bool little_endian;
+};
+
 /// Returns the bytes before the numbers: time, count, and padding.
 std::size_t head_bytes(std::uint32_t count, std::size_t element_bytes) {
     return time_bytes + count_bytes + (count > 0 && element_bytes == 8 ? 4 : 0);
 }
 
-void encode_numbers(const TimedNumbers<const void>& numbers, ByteData& to) {
-    const std::size_t head = head_bytes(numbers.count, numbers.element_bytes),
-                      bytes = std::size_t{numbers.count} * numbers.element_bytes;
-    to.setDataLength(head + bytes);
-    unsigned char* const out = to.getBuffer();
+std::size_t encoded_bytes(const TimedNumbers<const void>& numbers) {
+    return head_bytes(numbers.count, numbers.element_bytes) +
+           std::size_t{numbers.count} * numbers.element_bytes;
+}
+
+/// Writes encoded_bytes() to `out`.
+void encode_numbers(const TimedNumbers<const void>& numbers, unsigned char* out) {
+    const std::size_t head = head_bytes(numbers.count, numbers.element_bytes);
     const std::uint64_t count = numbers.count; // with the padding
     std::memcpy(out, numbers.tm, time_bytes);
     std::memcpy(out + time_bytes, &count, head - time_bytes);
-    copyBytes(out + head, numbers.elements, bytes);
+    copyBytes(out + head, numbers.elements, std::size_t{numbers.count} * numbers.element_bytes);
+}
+
+bool are_block(const TimedNumbers<const void>& numbers) {
+    return native_little_endian && numbers.tm != nullptr;
 }
 
 /// Returns false if the value cannot be encoded.
 bool encode(const Marshal& marshal, cdrMemoryStream& stream, ByteData& to) {
     to.isLittleEndian(true);
-    if (native_little_endian && marshal.numbers().tm != nullptr) {
-        encode_numbers(marshal.numbers(), to);
+    if (are_block(marshal.numbers())) {
+        to.setDataLength(encoded_bytes(marshal.numbers()));
+        encode_numbers(marshal.numbers(), to.getBuffer());
         return true;
     }
     stream.rewindPtrs();
@@ -56,12 +72,12 @@ bool encode(const Marshal& marshal, cdrMemoryStream& stream, ByteData& to) {
 
 /// Copies a message with as many numbers as the variable has, as most have. Returns false, without side effects, for
 /// others.
-bool decode_numbers(const ByteData& from, const TimedNumbers<void>& to) {
+bool decode_numbers(const EncodedMessage& from, const TimedNumbers<void>& to) {
     const std::size_t head = head_bytes(to.count, to.element_bytes),
                       bytes = std::size_t{to.count} * to.element_bytes;
-    if (to.tm == nullptr || from.getEndian() != native_little_endian || from.getDataLength() != head + bytes)
+    if (to.tm == nullptr || from.little_endian != native_little_endian || from.size != head + bytes)
         return false;
-    const unsigned char* const in = from.getBuffer();
+    const unsigned char* const in = from.bytes;
     std::uint32_t count = 0;
     std::memcpy(&count, in + time_bytes, sizeof count);
     if (count != to.count) return false;
@@ -70,11 +86,36 @@ bool decode_numbers(const ByteData& from, const TimedNumbers<void>& to) {
     return true;
 }
 
-void decode(const ByteData& from, Unmarshal& reader) {
+void decode(const EncodedMessage& from, Unmarshal& reader) {
     if (decode_numbers(from, reader.numbers())) return;
-    cdrMemoryStream stream(from.getBuffer(), from.getDataLength());
-    stream.setByteSwapFlag(from.getEndian());
+    cdrMemoryStream stream(const_cast<unsigned char*>(from.bytes), from.size);
+    stream.setByteSwapFlag(from.little_endian);
     reader(stream);
+}
+
+void copy(const EncodedMessage& from, ByteData& to) {
+    to.writeData(from.bytes, from.size);
+    to.isLittleEndian(from.little_endian);
+}
+
+using Ring = tandem::rt::ValueRing<ByteData>;
+
+EncodedMessage as_message(const Ring::ShortValue& value) { return {value.bytes(), value.size(), true}; }
+
+/// Returns the message that was taken last.
+EncodedMessage last_message(Ring& ring) {
+    if (const auto* value = ring.taken_short()) return as_message(*value);
+    const ByteData& last = ring.last();
+    return {last.getBuffer(), last.getDataLength(), last.getEndian()};
+}
+
+/// Publishes the message in the writer's ByteData. Returns whether the oldest one was dropped for it.
+bool publish_next(Ring& ring) {
+    const ByteData& next = ring.next();
+    const unsigned char* const bytes = next.getBuffer();
+    if (next.getDataLength() <= Ring::ShortValue::max_size && next.getEndian())
+        return ring.publish_short(bytes, next.getDataLength());
+    return ring.publish({&next, bytes, bytes + Ring::line, bytes});
 }
 
 void read_policy(const coil::Properties& prop, const char* key, const char* default_word,
@@ -145,30 +186,26 @@ void PortBuffer::wake() {
     changed_.notify_all();
 }
 
-/// Returns FULL if there is no room, NOT_SUPPORTED if `encode` returns false.
-template <class Encode>
-inline BufferStatus PortBuffer::try_store(Turn& turn, const Encode& encode, bool& overwritten) {
+/// Returns FULL if there is no room, NOT_SUPPORTED if `publish` returns false.
+template <class Publish>
+inline BufferStatus PortBuffer::try_store(Turn& turn, const Publish& publish, bool& overwritten) {
     const ShortLock lock(write_mutex_);
     turn.waits = turn.timeout > 0ns || (turn.timeout < 0ns && block_write_);
     turn.wakes = block_read_;
     if (turn.waits && turn.timeout < 0ns) turn.timeout = write_timeout_;
     if (ring_->is_full() && (turn.waits || !overwrite_)) return BufferStatus::FULL;
-    ByteData& next = ring_->next();
-    if (!encode(next)) return BufferStatus::NOT_SUPPORTED;
-    const unsigned char* const bytes = next.getBuffer();
-    overwritten = ring_->publish({&next, bytes, bytes + Ring::line, bytes});
-    return BufferStatus::OK;
+    return publish(overwritten) ? BufferStatus::OK : BufferStatus::NOT_SUPPORTED;
 }
 
-template <class Encode>
-inline BufferStatus PortBuffer::store(std::chrono::nanoseconds timeout, const Encode& encode,
+template <class Publish>
+inline BufferStatus PortBuffer::store(std::chrono::nanoseconds timeout, const Publish& publish,
                                       bool& overwritten) {
     Turn turn{timeout};
     overwritten = false;
-    BufferStatus status = try_store(turn, encode, overwritten);
+    BufferStatus status = try_store(turn, publish, overwritten);
     if (status == BufferStatus::FULL && turn.waits) {
         const auto stored = [&] {
-            status = try_store(turn, encode, overwritten);
+            status = try_store(turn, publish, overwritten);
             return status != BufferStatus::FULL;
         };
         if (!wait(turn.timeout, stored)) return BufferStatus::TIMEOUT;
@@ -179,23 +216,21 @@ inline BufferStatus PortBuffer::store(std::chrono::nanoseconds timeout, const En
 
 BufferStatus PortBuffer::write(const ByteData& message, std::chrono::nanoseconds timeout) {
     bool ignored = false;
-    return store(
-        timeout,
-        [&](ByteData& to) {
-            to = message;
-            return true;
-        },
-        ignored);
+    return store_copy(message, timeout, ignored);
 }
 
 BufferStatus PortBuffer::writeReporting(const ByteData& message, bool& overwritten) {
-    return store(
-        -1ns,
-        [&](ByteData& to) {
-            to = message;
-            return true;
-        },
-        overwritten);
+    return store_copy(message, -1ns, overwritten);
+}
+
+BufferStatus PortBuffer::store_copy(const ByteData& message, std::chrono::nanoseconds timeout,
+                                    bool& overwritten) {
+    const auto publish = [&](bool& dropped) {
+        ring_->next() = message;
+        dropped = publish_next(*ring_);
+        return true;
+    };
+    return store(timeout, publish, overwritten);
 }
 
 BufferStatus PortBuffer::writeInPlace(const Marshal& marshal) {
@@ -203,9 +238,20 @@ BufferStatus PortBuffer::writeInPlace(const Marshal& marshal) {
         rehearse_write(marshal);
         return BufferStatus::OK;
     }
+    const auto publish = [&](bool& dropped) {
+        const auto& numbers = marshal.numbers();
+        if (are_block(numbers) && encoded_bytes(numbers) <= Ring::ShortValue::max_size) {
+            std::array<unsigned char, Ring::ShortValue::max_size> bytes;
+            encode_numbers(numbers, bytes.data());
+            dropped = ring_->publish_short(bytes.data(), encoded_bytes(numbers));
+            return true;
+        }
+        if (!encode(marshal, stream_, ring_->next())) return false;
+        dropped = publish_next(*ring_);
+        return true;
+    };
     bool ignored = false;
-    return store(
-        -1ns, [&](ByteData& to) { return encode(marshal, stream_, to); }, ignored);
+    return store(-1ns, publish, ignored);
 }
 
 void PortBuffer::rehearse_write(const Marshal& marshal) {
@@ -231,7 +277,7 @@ inline BufferStatus PortBuffer::try_take(Turn& turn, const Decode& decode) {
         has_last_ = true;
     else if (turn.waits || !readback_ || !has_last_)
         return BufferStatus::EMPTY;
-    decode(ring_->last());
+    decode(last_message(*ring_));
     return BufferStatus::OK;
 }
 
@@ -248,13 +294,13 @@ inline BufferStatus PortBuffer::take(std::chrono::nanoseconds timeout, const Dec
 }
 
 BufferStatus PortBuffer::read(ByteData& message, std::chrono::nanoseconds timeout) {
-    return take(timeout, [&](const ByteData& from) { message = from; });
+    return take(timeout, [&](const EncodedMessage& from) { copy(from, message); });
 }
 
 BufferStatus PortBuffer::readInPlace(ByteData&, Unmarshal& reader, bool& read_in_place) {
     read_in_place = true;
     if (rehearsing()) return rehearse_read(reader);
-    return take(-1ns, [&](const ByteData& from) { decode(from, reader); });
+    return take(-1ns, [&](const EncodedMessage& from) { decode(from, reader); });
 }
 
 BufferStatus PortBuffer::rehearse_read(Unmarshal& reader) {
@@ -262,9 +308,15 @@ BufferStatus PortBuffer::rehearse_read(Unmarshal& reader) {
     const ShortLock lock(read_mutex_, std::adopt_lock);
     tandem::rt::note_crossings(ring_->taken());
     ring_->prefetch_for_take();
-    if (!has_last_ || ring_->last().getDataLength() > longest_rehearsed) return BufferStatus::EMPTY;
-    decode(ring_->last(), reader);
+    if (!has_last_ || last_message(*ring_).size > longest_rehearsed) return BufferStatus::EMPTY;
+    decode(last_message(*ring_), reader);
     return BufferStatus::OK;
+}
+
+// Unlike readable(), looks at no line that the writer writes for each message.
+bool PortBuffer::empty() const {
+    const ShortLock lock(read_mutex_);
+    return ring_->empty();
 }
 
 std::size_t PortBuffer::readable() const {
@@ -278,8 +330,7 @@ void PortBuffer::note_lines() const {
     const ShortLock lock(read_mutex_, std::adopt_lock);
     tandem::rt::note_lines(&ring_, cache_line);
     tandem::rt::note_lines(&read_mutex_, cache_line);
-    tandem::rt::note_lines(ring_.get(), sizeof *ring_);
-    tandem::rt::note_lines(ring_->readers_cell(), cache_line);
+    ring_->note_lines_of_empty();
 }
 
 std::size_t PortBuffer::writable() const {
@@ -287,8 +338,16 @@ std::size_t PortBuffer::writable() const {
     return ring_->depth() - ring_->size();
 }
 
+/// Gives each short message a ByteData. Call it with both mutexes held, before an access by offset.
+void PortBuffer::settle() {
+    ring_->settle([this](std::uint32_t index, const Ring::ShortValue& value) {
+        copy(as_message(value), ring_->at(index));
+    });
+}
+
 ByteData* PortBuffer::wptr(long n) {
     const std::scoped_lock lock(write_mutex_, read_mutex_);
+    settle();
     return &ring_->at(ring_->writers(n));
 }
 
@@ -297,6 +356,7 @@ BufferStatus PortBuffer::advanceWptr(long n, bool /*unlock_enable*/) {
         const std::scoped_lock lock(write_mutex_, read_mutex_);
         const long filled = static_cast<long>(ring_->size()), depth = static_cast<long>(ring_->depth());
         if (n > depth - filled || n < -filled) return BufferStatus::PRECONDITION_NOT_MET;
+        settle();
         for (; n > 0; --n) ring_->publish();
         for (; n < 0; ++n) ring_->unpublish();
     }
@@ -312,6 +372,7 @@ BufferStatus PortBuffer::put(const ByteData& message) {
 
 ByteData* PortBuffer::rptr(long n) {
     const std::scoped_lock lock(write_mutex_, read_mutex_);
+    settle();
     return &ring_->at(ring_->readers(n));
 }
 
@@ -320,6 +381,7 @@ BufferStatus PortBuffer::advanceRptr(long n, bool /*unlock_enable*/) {
         const std::scoped_lock lock(write_mutex_, read_mutex_);
         const long filled = static_cast<long>(ring_->size()), depth = static_cast<long>(ring_->depth());
         if (n > filled || n < filled - depth) return BufferStatus::PRECONDITION_NOT_MET;
+        settle();
         has_last_ = has_last_ || n > 0;
         for (; n > 0; --n) ring_->take();
         for (; n < 0; ++n) ring_->untake();
@@ -330,6 +392,7 @@ BufferStatus PortBuffer::advanceRptr(long n, bool /*unlock_enable*/) {
 
 BufferStatus PortBuffer::get(ByteData& message) {
     const std::scoped_lock lock(write_mutex_, read_mutex_);
+    settle();
     message = ring_->at(ring_->readers(0));
     return BufferStatus::OK;
 }

@@ -39,9 +39,9 @@ class PortBuffer final : public CdrBufferBase, public InPlaceBuffer {
     /// In a rehearsal decodes the last message once more.
     BufferStatus readInPlace(ByteData& message, Unmarshal& reader, bool& read_in_place) override;
     std::size_t readable() const override;
-    /// Notes the lines that readable() uses (host/rt/cycle_lines.hpp). Does nothing unless the calling thread owns the end.
+    /// Notes the lines that empty() uses (host/rt/cycle_lines.hpp). Does nothing unless the calling thread owns the end.
     void note_lines() const;
-    bool empty() const override { return readable() == 0; }
+    bool empty() const override;
 
     // Access to messages without moving, and moves without access. They exclude both threads.
     ByteData* wptr(long n) override;
@@ -61,10 +61,11 @@ class PortBuffer final : public CdrBufferBase, public InPlaceBuffer {
         bool waits = false;               ///< this call waits for the other end
         bool wakes = false;               ///< threads wait at the other end
     };
-    template <class Encode>
-    BufferStatus try_store(Turn& turn, const Encode& encode, bool& overwritten);
-    template <class Encode>
-    BufferStatus store(std::chrono::nanoseconds timeout, const Encode& encode, bool& overwritten);
+    template <class Publish>
+    BufferStatus try_store(Turn& turn, const Publish& publish, bool& overwritten);
+    template <class Publish>
+    BufferStatus store(std::chrono::nanoseconds timeout, const Publish& publish, bool& overwritten);
+    BufferStatus store_copy(const ByteData& message, std::chrono::nanoseconds timeout, bool& overwritten);
     template <class Decode>
     BufferStatus try_take(Turn& turn, const Decode& decode);
     template <class Decode>
@@ -74,6 +75,7 @@ class PortBuffer final : public CdrBufferBase, public InPlaceBuffer {
     void wake();
     void rehearse_write(const Marshal& marshal);
     BufferStatus rehearse_read(Unmarshal& reader);
+    void settle();
     void set_length(std::size_t n);
 
     static constexpr std::size_t cache_line = 64; // of which the two threads write different ones
