@@ -29,7 +29,7 @@ void ExecutionContextBase::rehearse() {
     using tandem::rt::note_lines;
     note_lines(&m_mutex, sizeof m_mutex + sizeof m_participants + sizeof m_cycleMutex + sizeof m_cycleThread);
     const auto all = participants();
-    note_lines(all.get(), sizeof *all);
+    note_lines(all.get(), sizeof(Participants::element_type));
     note_lines(all->data(), all->size() * sizeof(Participant));
     for (auto& participant : *all) participant->note_lines();
     cycle();

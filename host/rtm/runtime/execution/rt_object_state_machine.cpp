@@ -121,7 +121,7 @@ bool RTObjectStateMachine::applyTransition() {
 }
 
 void RTObjectStateMachine::note_lines() const {
-    tandem::rt::note_lines(&states_, sizeof states_ + sizeof id_ + sizeof local_);
+    tandem::rt::note_lines(&states_, sizeof states_ + sizeof id_ + sizeof(void*));
 }
 
 void RTObjectStateMachine::execute() {

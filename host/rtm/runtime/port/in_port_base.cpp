@@ -32,7 +32,7 @@ void note_port(std::initializer_list<const void*> members, const InPortBase::Con
     for (const void* member : members) note_lines(member, sizeof(void*));
     if (connectors.empty()) return;
     InPortConnector* const connector = connectors.front();
-    note_lines(connectors.data(), sizeof connector);
+    note_lines(connectors.data(), sizeof(void*));
     note_lines(connector, sizeof *connector);
     if (const auto* buffer = dynamic_cast<const PortBuffer*>(connector->getBuffer())) buffer->note_lines();
 }
