@@ -238,20 +238,25 @@ BufferStatus PortBuffer::writeInPlace(const Marshal& marshal) {
         rehearse_write(marshal);
         return BufferStatus::OK;
     }
-    const auto publish = [&](bool& dropped) {
-        const auto& numbers = marshal.numbers();
-        if (are_block(numbers) && encoded_bytes(numbers) <= Ring::ShortValue::max_size) {
-            std::array<unsigned char, Ring::ShortValue::max_size> bytes;
-            encode_numbers(numbers, bytes.data());
-            dropped = ring_->publish_short(bytes.data(), encoded_bytes(numbers));
-            return true;
-        }
-        if (!encode(marshal, stream_, ring_->next())) return false;
-        dropped = publish_next(*ring_);
-        return true;
-    };
+    const auto publish = [&](bool& dropped) { return publish_encoded(marshal, dropped); };
     bool ignored = false;
     return store(-1ns, publish, ignored);
+}
+
+/// Encodes and publishes the message; in a rehearsal only encodes it. Returns false if it cannot be encoded.
+bool PortBuffer::publish_encoded(const Marshal& marshal, bool& dropped) {
+    const auto& numbers = marshal.numbers();
+    // The value of a rehearsal is short, also at a port for long ones.
+    const bool is_long = rehearsing() && ring_->next().getBuffer() != nullptr;
+    if (!is_long && are_block(numbers) && encoded_bytes(numbers) <= Ring::ShortValue::max_size) {
+        std::array<unsigned char, Ring::ShortValue::max_size> bytes;
+        encode_numbers(numbers, bytes.data());
+        if (!rehearsing()) dropped = ring_->publish_short(bytes.data(), encoded_bytes(numbers));
+        return true;
+    }
+    if (!encode(marshal, stream_, ring_->next())) return false;
+    if (!rehearsing()) dropped = publish_next(*ring_);
+    return true;
 }
 
 void PortBuffer::rehearse_write(const Marshal& marshal) {
@@ -259,11 +264,12 @@ void PortBuffer::rehearse_write(const Marshal& marshal) {
     const ShortLock lock(write_mutex_, std::adopt_lock);
     tandem::rt::note_crossings(ring_->published());
     ring_->prefetch_for_publish();
-    // Encoding a short message here would clear a long one.
-    if (ByteData& next = ring_->next(); next.getDataLength() <= longest_rehearsed) {
-        __builtin_prefetch(next.getBuffer(), 1);
-        encode(marshal, stream_, next);
-    }
+    // Encoding the short message of a rehearsal would clear a long one.
+    const ByteData& next = ring_->next();
+    if (next.getDataLength() > longest_rehearsed) return;
+    __builtin_prefetch(next.getBuffer(), 1);
+    bool dropped = false;
+    publish_encoded(marshal, dropped);
 }
 
 /// Returns EMPTY if there is no message, also if threads wait for one.

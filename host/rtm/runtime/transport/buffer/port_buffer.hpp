@@ -73,6 +73,7 @@ class PortBuffer final : public CdrBufferBase, public InPlaceBuffer {
     template <class Ready>
     bool wait(std::chrono::nanoseconds timeout, const Ready& ready);
     void wake();
+    bool publish_encoded(const Marshal& marshal, bool& dropped);
     void rehearse_write(const Marshal& marshal);
     BufferStatus rehearse_read(Unmarshal& reader);
     void settle();
