@@ -67,8 +67,8 @@ class Manager {
     static void terminate();
     void join();
     /// Deactivates and finalizes all components in reverse order of creation, then ends the ORB. Ours: returns false if a
-    /// component did not stop in time and was left behind. In code of a component, and in any thread but that of init()
-    /// while runManager() runs or has returned at once, requests this and returns true at once.
+    /// component did not stop in time and was left behind. In code of a component, and, once activateManager() or
+    /// runManager() has been called, in any thread but that of init(), requests this and returns true at once.
     bool shutdown();
     /// Ours: returns the result of shutdown().
     bool stoppedInOrder() const;

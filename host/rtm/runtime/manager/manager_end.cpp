@@ -14,8 +14,8 @@ bool Manager::shutdown() {
     {
         std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
         has_main_loop = m_impl->main_loop != std::thread::id();
-        const bool runs = has_main_loop || m_impl->has_no_main_loop || m_impl->setting_up;
-        is_requested = m_impl->must_return_first() || (runs && m_impl->owner != std::this_thread::get_id());
+        is_requested = m_impl->must_return_first() ||
+                       (m_impl->is_run && m_impl->owner != std::this_thread::get_id());
     }
     if (is_requested) {
         m_impl->request_end(*this);
@@ -108,17 +108,19 @@ bool Manager::Impl::end(Manager& manager) {
 void Manager::Impl::set_setting_up(bool value) {
     std::lock_guard<std::recursive_mutex> lock(mutex);
     setting_up = value;
+    is_run = true;
     end_changed.notify_all();
 }
 
 void Manager::Impl::set_main_loop(std::thread::id thread) {
     std::lock_guard<std::recursive_mutex> lock(mutex);
     main_loop = thread;
+    is_run = true;
 }
 
-void Manager::Impl::go_without_main_loop() {
+void Manager::Impl::note_run() {
     std::lock_guard<std::recursive_mutex> lock(mutex);
-    has_no_main_loop = true;
+    is_run = true;
 }
 
 } // namespace RTC

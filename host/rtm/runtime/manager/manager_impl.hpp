@@ -73,11 +73,11 @@ struct Manager::Impl {
     bool shut_down = false;    // the end has begun
     coil::vstring left_behind; // what did not return when the manager was shut down
     // Who ends the manager: see manager_end.cpp.
-    std::thread::id owner;         // the thread of start()
-    std::thread::id main_loop;     // the thread of runManager() until it returns
-    std::thread::id ending;        // the thread that ends the manager
-    bool has_no_main_loop = false; // runManager() has returned at once
-    bool setting_up = false;       // the configuration is being carried out
+    std::thread::id owner;     // the thread of start()
+    std::thread::id main_loop; // the thread of runManager() until it returns
+    std::thread::id ending;    // the thread that ends the manager
+    bool is_run = false;       // activateManager() or runManager() has been called
+    bool setting_up = false;   // the configuration is being carried out
     bool end_requested = false, has_ended = false, ended_in_order = false;
     std::condition_variable_any end_changed; // of setting_up and has_ended
 
@@ -137,7 +137,7 @@ struct Manager::Impl {
     void set_setting_up(bool value);
     /// No thread: there is no main loop any more.
     void set_main_loop(std::thread::id thread);
-    void go_without_main_loop();
+    void note_run();
     /// Ends everything, or waits until the thread that does so has ended. Returns false if a component was left behind.
     bool end(Manager& manager);
     struct EndNotice;

@@ -99,7 +99,7 @@ void Manager::join() {}
 
 void Manager::runManager(bool no_block) {
     // The caller continues without a main loop. Tasks of invoke() and addTask() then wait for shutdown().
-    if (no_block) return m_impl->go_without_main_loop();
+    if (no_block) return m_impl->note_run();
     for (int number : {SIGINT, SIGTERM, SIGHUP}) install_signal_handler(number);
     IdleShutdown idle_shutdown(m_impl->config_snapshot());
     Clock::time_point next_round = Clock::now();

@@ -42,6 +42,23 @@ class OneCycle : public RTC::DataFlowComponentBase {
     }
 };
 
+/// Ends the manager in a thread that its destructor joins.
+class EndsInThread : public RTC::DataFlowComponentBase {
+  public:
+    using DataFlowComponentBase::DataFlowComponentBase;
+    ~EndsInThread() override {
+        if (thread_.joinable()) thread_.join();
+        was_deleted = true;
+    }
+    RTC::ReturnCode_t onExecute(RTC::UniqueId) override {
+        if (!thread_.joinable()) thread_ = std::thread([] { RTC::Manager::instance().shutdown(); });
+        return RTC::RTC_OK;
+    }
+
+  private:
+    std::thread thread_;
+};
+
 /// Takes a while to be deactivated, and then writes to a pipe.
 class SlowToStop : public RTC::DataFlowComponentBase {
   public:
@@ -115,4 +132,15 @@ TEST_CASE("A component that shuts its manager down ends in order in a program wi
     CHECK(was_finalized);
     CHECK(was_deleted);
     CHECK(fixture.manager().shutdown()); // waits for the end that the component has requested
+}
+
+TEST_CASE("A thread of a component may shut the manager down before the main loop begins") {
+    testing::ManagerFixture fixture(false);
+    testing::register_component_type<EndsInThread>(fixture.manager(), "EndsInThread");
+    fixture.manager().activateManager();
+    fixture.activate(fixture.create<EndsInThread>("EndsInThread"));
+    for (int i = 0; i < 20000 && !was_deleted; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    fixture.manager().runManager(); // returns, since an end was requested
+    CHECK(was_deleted);
+    CHECK(fixture.manager().shutdown()); // was in order: the destructor has returned in time
 }
