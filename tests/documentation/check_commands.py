@@ -214,11 +214,16 @@ def examples_in(text):
 
 
 def example_errors(programs):
-    """What is wrong with the examples in the help of tandem's commands, and which commands have none."""
+    """What is wrong with the help of tandem's commands, its examples, and which commands have none."""
     for command in commands_below(programs, "tandem"):
         name, examples = " ".join(command), examples_in(programs.help(*command))
         if not any(name in example for example in examples):
             yield f"{name} --help has no example"
+        # CLI11 2.4 ends a program that gives an argument a name like NAME=VALUE; 2.1 does not.
+        arguments, _, _ = programs.help(*command).partition("\nPositionals:\n")[2].partition("\n\n")
+        for argument in re.findall(r"^  (\S+)", arguments, re.M):
+            if not re.fullmatch(r"[A-Z_]+", argument):
+                yield f"{name} --help: the argument {argument} has a name that CLI11 2.4 refuses; capitals and _ are safe"
         for words in (words for example in examples for words in simple_commands(example) if words[0] == "tandem"):
             if error := programs.error(words, False):
                 yield f"{name} --help: {error}: {' '.join(words)}"

@@ -134,7 +134,7 @@ void add_conf(CLI::App& rtm, Action& selected) {
         add_running_command(rtm, "conf", "Shows and sets configuration parameters", options->client,
                             "A component applies new values between two executions.");
     command->add_option("COMPONENT", options->options.component, "component, see below")->required();
-    command->add_option("NAME=VALUE", options->options.values, "parameters to set");
+    command->add_option("PARAMETER", options->options.values, "parameters to set, each as NAME=VALUE");
     command->add_option("--set", options->options.set,
                         "configuration set to show or change (the active one)");
     command->add_option("--activate", options->options.activate, "configuration set to activate");
