@@ -4,22 +4,21 @@
 //
 // Each cell has a word: the position of a value, whether the value is still to be read, and the value's index. The reader
 // polls the word of the next position. Neither end copies a value that the other end may use: an end that empties or fills a
-// cell exchanges the value in the cell for one that it owns. So there are two more values than cells. A writer that finds a
-// free cell stores its word without a locked instruction. A reader, and a writer that drops the oldest value, exchange the
-// word atomically, so that each value is either read or dropped.
+// cell exchanges the value in the cell for one that it owns. The reader takes a value by a compare-exchange of the word.
 //
 // The rest of the cell's cache line holds the bytes of a short value, so that this line is the only one that a message moves
 // from one processor to the other. A longer value is often a chain of pointers. Its cell has the addresses of the parts, so
 // that the reader requests all of them at once.
 //
-// The reader copies the bytes before it takes the cell. A writer that drops the oldest value therefore takes its cell away
-// first:
+// There is one cell more than values. The writer fills a cell that has nothing to read, and then drops the oldest value if
+// there are too many, so that its next cell has nothing to read either:
 //
-//     writer: W1 exchanges the word, as taken (acquire) | W2 stores the bytes | W3 stores the new word (release)
-//     reader: R1 loads the word (acquire)               | R2 loads the bytes  | R3 compare-exchange of the word (release)
+//     writer: W1 fetch-and of the word, drops the value | W2 fills the cell anew  | W3 stores the word (release)
+//     reader: R1 loads the word (acquire)               | R2 loads the content    | R3 compare-exchange (release)
 //
-// If W1 is before R3, R3 fails, because positions only grow. If R3 is before W1, W1 acquires what R3 has released, so R2 happens
-// before W2 and reads none of its bytes. Between W1 and W3 a ring of one cell looks empty.
+// If W1 is before R3, R3 fails. If R3 is before W1, or before the load that spares W1, the writer acquires what R3 has released,
+// so R2 happens before W2 and reads none of its bytes. A reader that sees that a value was dropped sees the newer one, too,
+// because W1 releases it. So a ring that has a value never looks empty.
 #pragma once
 
 #include "host/rt/cycle_lines.hpp"
@@ -40,13 +39,13 @@ template <class A>
 class BasicCellRing {
   public:
     /// Largest depth; an index has 20 bits.
-    static constexpr std::size_t max_depth = (std::size_t{1} << 20U) - 2;
+    static constexpr std::size_t max_depth = (std::size_t{1} << 20U) - 3;
     static constexpr std::size_t line = 64;
     /// Addresses of cache lines that the reader of a value needs. They are only prefetched.
     using Parts = std::array<const void*, 4>;
 
-    /// A copy of the bytes of a short value, or of the parts of another.
-    class ShortValue {
+    /// A copy of what a cell has beside its word: the bytes of a short value, or the parts of another.
+    class Content {
       public:
         static constexpr std::size_t max_size = 48;
         std::size_t size() const { return head_ - 1; }
@@ -56,27 +55,29 @@ class BasicCellRing {
 
       private:
         friend class BasicCellRing;
-        bool exists() const { return head_ != 0; }
+        bool is_short() const { return head_ != 0; }
 
         std::array<std::uint64_t, max_size / shm::word_bytes> words_;
-        std::uint64_t head_ = 0; // size + 1; 0: not a short value
+        std::uint64_t head_ = 0; // of a short value its size + 1, else 0
     };
 
     explicit BasicCellRing(std::size_t depth);
     BasicCellRing(const BasicCellRing&) = delete;
 
-    std::size_t depth() const { return depth_; }
+    std::size_t depth() const { return cell_count_ - 1; }
     /// Returns the number of values that can be read; approximate while both threads run. [any-thread]
     std::size_t size() const;
 
     /// Returns the index of the value that the writer may change until it publishes it. [writing thread]
     std::uint32_t writers() const { return writer_.value; }
     /// Returns whether the next publish() drops the oldest value. [writing thread]
-    bool is_full() const { return is_unread(cells_[writer_.cell].word.load(std::memory_order_acquire)); }
+    bool is_full() const {
+        return is_unread(cells_[cell_behind(writer_.cell)].word.load(std::memory_order_acquire));
+    }
     /// Appends the writer's value, and gives the writer another one. Returns whether the oldest value was dropped for
     /// it. [writing thread]
     bool publish(const Parts& parts = {});
-    /// Appends these bytes instead of the writer's value. `size` <= ShortValue::max_size. [writing thread]
+    /// Appends these bytes instead of the writer's value. `size` <= Content::max_size. [writing thread]
     bool publish_short(const void* bytes, std::size_t size);
 
     /// Returns whether there is nothing to read. Loads one word, which stays in the cache until the writer stores it.
@@ -90,33 +91,36 @@ class BasicCellRing {
     /// [reading thread]
     bool take();
     /// Returns the value that was taken or looked at last if it is a short one, else NULL. Valid until the next take() or
-    /// peek(). [reading thread]
-    const ShortValue* taken_short() const { return taken_.exists() ? &taken_ : nullptr; }
+    /// peek(), and until settle(). [reading thread]
+    const Content* taken_short() const { return taken_.is_short() ? &taken_ : nullptr; }
     /// Gives the value that take() would take, and leaves it in the queue until take(), or until the writer drops it. Returns
     /// false if the queue is empty. [reading thread]
     bool peek();
     /// Returns the index of the value that was taken last. [reading thread]
     std::uint32_t readers() const { return reader_.value; }
 
-    /// Moves each short value to a place with an index: calls `store(index, value)` for each. Needed before the following
-    /// functions. [no other thread uses the ring]
+    /// Moves each short value to a place with an index: calls `store(index, content)` for each. Also moves the reader over dropped
+    /// values, so that size() is exact. Needed before the following functions. [no other thread uses the ring]
     template <class Store>
     void settle(const Store& store);
     /// Return the index of a value relative to the next one to write or to read. [no other thread uses the ring]
     std::uint32_t writers(long offset) const;
-    std::uint32_t readers(long offset);
+    std::uint32_t readers(long offset) const;
     /// Undo the last publish() or take(). [no other thread uses the ring]
     void unpublish();
     void untake();
 
     /// Returns how many values were published. [writing thread]
-    std::uint64_t published() const { return writer_.position - depth_; }
+    std::uint64_t published() const { return writer_.position - cell_count_; }
     /// Returns how many values were taken or dropped. [reading thread]
-    std::uint64_t taken() const { return reader_.position - depth_; }
+    std::uint64_t taken() const { return reader_.position - cell_count_; }
 
-    /// Load into the caches what publish() or take() needs. The first does not take the word's line from the reader. The
-    /// second includes the cell where the reader looks for a further value.
-    void prefetch_for_publish() const { __builtin_prefetch(&cells_[writer_.cell]); }
+    /// Load into the caches what publish() or take() needs, which includes the next cell: publish() makes room in it, and the
+    /// reader looks for a further value there. The first does not take a line from the reader.
+    void prefetch_for_publish() const {
+        __builtin_prefetch(&cells_[writer_.cell]);
+        __builtin_prefetch(&cells_[cell_behind(writer_.cell)]);
+    }
     void prefetch_for_take() const {
         __builtin_prefetch(&cells_[reader_.cell], 1);
         __builtin_prefetch(&cells_[cell_behind(reader_.cell)]);
@@ -130,9 +134,8 @@ class BasicCellRing {
     /// Shares its cache line with no other cell, because the writer fills one while the reader polls the next.
     struct alignas(line) Cell {
         Word word;
-        Word head{0}; // ShortValue::head_
-        std::array<typename A::Cell, ShortValue::max_size / shm::word_bytes>
-            words; // ShortValue::words_, or Parts
+        Word head{0};                                                            // Content::head_
+        std::array<typename A::Cell, Content::max_size / shm::word_bytes> words; // Content::words_, or Parts
     };
 
     /// One end. `position` counts values, `cell` is its cell.
@@ -159,17 +162,17 @@ class BasicCellRing {
     }
     void step_back(End& end) const {
         --end.position;
-        end.cell = (end.cell == 0 ? depth_ : end.cell) - 1;
+        end.cell = (end.cell == 0 ? cell_count_ : end.cell) - 1;
     }
-    std::uint32_t cell_behind(std::uint32_t cell) const { return cell + 1 == depth_ ? 0 : cell + 1; }
+    std::uint32_t cell_behind(std::uint32_t cell) const { return cell + 1 == cell_count_ ? 0 : cell + 1; }
     std::size_t cell_at(const End& end, long offset) const;
     /// Returns whether a word of the reader's cell is of the round before, so that there is nothing to read.
     bool is_before_reader(std::uint64_t word) const { return distance(word, reader_.position) < 0; }
     template <class Fill>
     bool publish_content(const Fill& fill);
-    std::uint64_t take_away_oldest(Cell& cell);
-    static ShortValue load_content(const Cell& cell);
-    static void request_parts(const ShortValue& parts);
+    bool make_room();
+    static Content load_content(const Cell& cell);
+    static void request_parts(const Content& content);
     bool try_take(std::uint64_t word);
     bool take_peeked();
     bool take_overtaken();
@@ -177,24 +180,24 @@ class BasicCellRing {
     void set_taken(std::uint64_t position) { next_to_take_.store(position, std::memory_order_relaxed); }
     std::optional<std::uint32_t> place_of(std::uint32_t cell) const;
 
-    const std::uint32_t depth_;
+    const std::uint32_t cell_count_; // depth + 1
     const std::unique_ptr<Cell[]> cells_;
     // Each end has cache lines to itself.
     alignas(line) End writer_;
     Word published_; ///< writer_.position
     alignas(line) End reader_;
-    Word next_to_take_;       ///< position of the next value to take, a peeked one included
-    bool has_peeked_ = false; ///< the reader's value is still in the queue
-    alignas(line) ShortValue taken_;
+    Word next_to_take_;           ///< position of the next value to take, a peeked one included
+    bool has_peeked_ = false;     ///< the reader's value is still in the queue
+    alignas(line) Content taken_; ///< of the value that was taken last
 };
 
-// The first values have the positions depth, depth + 1 ... The words of the cells have those of one round before.
+// The first values have the positions cell_count_, cell_count_ + 1 ... The words of the cells have those of one round before.
 template <class A>
 BasicCellRing<A>::BasicCellRing(std::size_t depth)
-    : depth_(static_cast<std::uint32_t>(depth)),
-      cells_(std::make_unique<Cell[]>(depth)), writer_{depth, 0, depth_},
-      published_(depth), reader_{depth, 0, depth_ + 1}, next_to_take_(depth) {
-    for (std::uint32_t i = 0; i < depth; ++i)
+    : cell_count_(static_cast<std::uint32_t>(depth + 1)),
+      cells_(std::make_unique<Cell[]>(cell_count_)), writer_{cell_count_, 0, cell_count_},
+      published_(cell_count_), reader_{cell_count_, 0, cell_count_ + 1}, next_to_take_(cell_count_) {
+    for (std::uint32_t i = 0; i < cell_count_; ++i)
         cells_[i].word.store(pack(i, false, i), std::memory_order_relaxed);
 }
 
@@ -202,7 +205,7 @@ template <class A>
 std::size_t BasicCellRing<A>::size() const {
     const std::uint64_t taken = next_to_take_.load(std::memory_order_relaxed),
                         published = published_.load(std::memory_order_acquire);
-    return published > taken ? std::min<std::size_t>(published - taken, depth_) : 0;
+    return published > taken ? std::min<std::size_t>(published - taken, depth()) : 0;
 }
 
 template <class A>
@@ -226,23 +229,23 @@ template <class A>
 template <class Fill>
 inline bool BasicCellRing<A>::publish_content(const Fill& fill) {
     Cell& cell = cells_[writer_.cell];
-    std::uint64_t before = cell.word.load(std::memory_order_acquire);
-    if (is_unread(before)) [[unlikely]]
-        before = take_away_oldest(cell);
+    const std::uint64_t before = cell.word.load(std::memory_order_relaxed);
     fill(cell);
     // Only this thread changes a cell that is not to be read.
     cell.word.store(pack(writer_.position, true, writer_.value), std::memory_order_release);
     writer_.value = index(before);
     step(writer_);
     published_.store(writer_.position, std::memory_order_release);
-    return is_unread(before);
+    return make_room();
 }
 
-/// Drops the value of the writer's cell, unless the reader has taken it meanwhile. The word then says that the value was
-/// taken, but its index does not count. Returns the word before.
+/// Drops the value in the writer's cell, if the reader has not taken it. Returns whether it did.
 template <class A>
-std::uint64_t BasicCellRing<A>::take_away_oldest(Cell& cell) {
-    return cell.word.exchange(pack(writer_.position - depth_, false, 0), std::memory_order_acquire);
+inline bool BasicCellRing<A>::make_room() {
+    Word& word = cells_[writer_.cell].word;
+    if (!is_unread(word.load(std::memory_order_acquire))) [[likely]]
+        return false;
+    return is_unread(word.fetch_and(~unread_bit, std::memory_order_acq_rel));
 }
 
 template <class A>
@@ -267,8 +270,8 @@ template <class A>
 inline bool BasicCellRing<A>::try_take(std::uint64_t word) {
     if ((word ^ pack(reader_.position, true, 0)) >> index_bits != 0) return false;
     Cell& cell = cells_[reader_.cell];
-    const ShortValue content = load_content(cell);
-    if (!content.exists()) request_parts(content);
+    const Content content = load_content(cell);
+    if (!content.is_short()) request_parts(content);
     if (!cell.word.compare_exchange_strong(word, pack(reader_.position, false, reader_.value),
                                            std::memory_order_release, std::memory_order_relaxed)) [[unlikely]]
         return false;
@@ -280,32 +283,31 @@ inline bool BasicCellRing<A>::try_take(std::uint64_t word) {
 }
 
 template <class A>
-inline typename BasicCellRing<A>::ShortValue BasicCellRing<A>::load_content(const Cell& cell) {
-    ShortValue content;
+inline typename BasicCellRing<A>::Content BasicCellRing<A>::load_content(const Cell& cell) {
+    Content content;
     content.head_ = cell.head.load(std::memory_order_relaxed);
-    A::copy_atomic_from_shared(content.words_.data(), cell.words.data(), ShortValue::max_size);
+    A::copy_atomic_from_shared(content.words_.data(), cell.words.data(), Content::max_size);
     return content;
 }
 
 template <class A>
-inline void BasicCellRing<A>::request_parts(const ShortValue& parts) {
+inline void BasicCellRing<A>::request_parts(const Content& content) {
     for (std::size_t i = 0; i < std::tuple_size_v<Parts>; ++i)
         // NOLINTNEXTLINE(performance-no-int-to-ptr): never read, only requested
-        __builtin_prefetch(reinterpret_cast<const void*>(parts.words_[i]), 1);
+        __builtin_prefetch(reinterpret_cast<const void*>(content.words_[i]), 1);
 }
 
 /// Moves the reader on, if the writer has dropped the value at its position.
 template <class A>
 void BasicCellRing<A>::catch_up() {
-    const std::uint64_t word = cells_[reader_.cell].word.load(std::memory_order_relaxed);
+    const std::uint64_t word = cells_[reader_.cell].word.load(std::memory_order_acquire);
     const std::int64_t ahead = distance(word, reader_.position);
-    if (ahead == 0 && !is_unread(word)) { // the writer fills the cell anew
+    if (ahead == 0 && !is_unread(word)) {
         step(reader_);
     } else if (ahead > 0) {
         // The word is of the newest value of this cell. published_ may be one behind.
-        const std::uint64_t oldest =
-            std::max(reader_.position + static_cast<std::uint64_t>(ahead) + 1 - depth_,
-                     published_.load(std::memory_order_acquire) - depth_);
+        const std::uint64_t oldest = std::max(reader_.position + static_cast<std::uint64_t>(ahead) - depth(),
+                                              published_.load(std::memory_order_acquire) - depth());
         reader_.cell =
             static_cast<std::uint32_t>(cell_at(reader_, static_cast<long>(oldest - reader_.position)));
         reader_.position = oldest;
@@ -319,7 +321,8 @@ bool BasicCellRing<A>::take_overtaken() {
     constexpr int max_attempts = 64;
     for (int i = 0; i < max_attempts; ++i) {
         catch_up();
-        const std::uint64_t word = cells_[reader_.cell].word.load(std::memory_order_acquire);
+        // catch_up() has seen that this value was published.
+        const std::uint64_t word = cells_[reader_.cell].word.load(std::memory_order_relaxed);
         if (is_before_reader(word)) return false;
         if (try_take(word)) return true;
     }
@@ -334,24 +337,24 @@ bool BasicCellRing<A>::peek() {
     return true;
 }
 
-/// Returns false if the writer has dropped the peeked value: its cell has another one.
+/// Returns false if the peeked value is none of the newest `depth` any more.
 template <class A>
 bool BasicCellRing<A>::take_peeked() {
     has_peeked_ = false;
     set_taken(reader_.position);
-    const std::uint64_t word = cells_[cell_at(reader_, -1)].word.load(std::memory_order_relaxed);
-    return distance(word, reader_.position - 1) == 0;
+    return published_.load(std::memory_order_acquire) < reader_.position + depth();
 }
 
 template <class A>
 template <class Store>
 void BasicCellRing<A>::settle(const Store& store) {
-    if (taken_.exists()) store(reader_.value, taken_);
+    catch_up();
+    if (taken_.is_short()) store(reader_.value, taken_);
     taken_.head_ = 0;
-    for (std::uint32_t i = 0; i < depth_; ++i) {
-        const ShortValue value = load_content(cells_[i]);
-        if (!value.exists()) continue;
-        if (const auto place = place_of(i)) store(*place, value);
+    for (std::uint32_t i = 0; i < cell_count_; ++i) {
+        const Content content = load_content(cells_[i]);
+        if (!content.is_short()) continue;
+        if (const auto place = place_of(i)) store(*place, content);
         cells_[i].head.store(0, std::memory_order_relaxed);
     }
 }
@@ -370,7 +373,7 @@ std::optional<std::uint32_t> BasicCellRing<A>::place_of(std::uint32_t cell) cons
 
 template <class A>
 std::size_t BasicCellRing<A>::cell_at(const End& end, long offset) const {
-    const long size = static_cast<long>(depth_);
+    const long size = static_cast<long>(cell_count_);
     return static_cast<std::size_t>(((static_cast<long>(end.cell) + offset) % size + size) % size);
 }
 
@@ -384,8 +387,7 @@ std::uint32_t BasicCellRing<A>::writers(long offset) const {
 }
 
 template <class A>
-std::uint32_t BasicCellRing<A>::readers(long offset) {
-    catch_up();
+std::uint32_t BasicCellRing<A>::readers(long offset) const {
     return offset == -1 ? reader_.value
                         : index(cells_[cell_at(reader_, offset < 0 ? offset + 1 : offset)].word.load(
                               std::memory_order_acquire));
@@ -396,7 +398,7 @@ void BasicCellRing<A>::unpublish() {
     step_back(writer_);
     Word& word = cells_[writer_.cell].word;
     const std::uint64_t before = word.load(std::memory_order_acquire);
-    word.store(pack(writer_.position - depth_, false, writer_.value), std::memory_order_release);
+    word.store(pack(writer_.position - cell_count_, false, writer_.value), std::memory_order_release);
     writer_.value = index(before);
     published_.store(writer_.position, std::memory_order_release);
 }

@@ -14,8 +14,8 @@ extern template class BasicCellRing<shm::RealAtomics>;
 template <class Value>
 class ValueRing : public CellRing {
   public:
-    /// depth: 1 to max_depth. A full ring holds this many values.
-    explicit ValueRing(std::size_t depth) : CellRing(depth), values_(depth + 2) {}
+    /// depth: 1 to max_depth. A full ring holds this many values; each end owns one more, and so does the cell without one.
+    explicit ValueRing(std::size_t depth) : CellRing(depth), values_(depth + 3) {}
 
     Value& at(std::uint32_t index) { return values_[index].value; }
     /// Returns the value that publish() appends. It holds an old value, whose memory can be reused. [writing thread]

@@ -46,17 +46,34 @@ void InputDataPortImpl::push(opros_any& value) {
     if (DataPortListener* listener = listener_.load(std::memory_order_acquire)) listener->arrived();
 }
 
+/// Returns whether a value has the port's type. A library may have its own type_info for it.
+inline bool InputDataPortImpl::has_my_type(const opros_any::holder_base& held) {
+    return &held.rtti() == type_.load(std::memory_order_relaxed) || has_equal_type(held);
+}
+
+bool InputDataPortImpl::has_equal_type(const opros_any::holder_base& held) {
+    const std::type_info* type = type_.load(std::memory_order_relaxed);
+    if (type == nullptr) {
+        opros_any sample = port_.sample();
+        type = sample.held() != nullptr ? &sample.held()->rtti() : &typeid(void);
+        type_.store(type, std::memory_order_relaxed);
+    }
+    return held.rtti() == *type;
+}
+
+/// Gives decoded_ the port's type. It has the content of a value that the consumer has deleted, and perhaps changed before.
+inline void InputDataPortImpl::prepare_decoded() {
+    if (decoded_.empty() || !has_my_type(*decoded_.held())) [[unlikely]]
+        decoded_ = port_.sample();
+}
+
 /// Returns the elements of a short vector of numbers of the port's type, else nothing.
 inline std::optional<opros_any::holder_base::Memory> InputDataPortImpl::short_elements(opros_any& value) {
     opros_any::holder_base* const held = value.held();
     if (held == nullptr || held->elementBytes() == 0) return std::nullopt;
-    if (pushed_type_ == nullptr) [[unlikely]] {
-        opros_any sample = port_.sample();
-        pushed_type_ = sample.held() != nullptr ? &sample.held()->rtti() : &typeid(void);
-    }
-    if (&held->rtti() != pushed_type_ && held->rtti() != *pushed_type_) return std::nullopt;
+    if (!has_my_type(*held)) return std::nullopt;
     const auto elements = held->elements();
-    return elements.bytes <= Ring::ShortValue::max_size ? std::optional(elements) : std::nullopt;
+    return elements.bytes <= Ring::Content::max_size ? std::optional(elements) : std::nullopt;
 }
 
 inline void InputDataPortImpl::push_into_ring(opros_any& value) {
@@ -65,7 +82,7 @@ inline void InputDataPortImpl::push_into_ring(opros_any& value) {
         tandem::rt::note_crossings(ring_->published());
         ring_->prefetch_for_publish();
     }
-    // The value of a rehearsal is short, also at a port for long ones.
+    // A rehearsal pushes a short value, even if the port gets long ones.
     const bool is_long = !elements || (rehearsing() && !ring_->next().empty());
     if (is_long)
         push_long(value);
@@ -99,8 +116,7 @@ void InputDataPortImpl::push_into_queue(const opros_any& value) {
 // Takes a reference to the pointer, which is needed again only after an exception.
 inline InputDataPortImpl::ReadResult InputDataPortImpl::read_one(DataPortSource* const& source) {
     try {
-        if (decoded_.empty()) [[unlikely]]
-            decoded_ = port_.sample();
+        prepare_decoded();
         const bool found = rehearsing() ? source->again(decoded_) : source->take(&decoded_);
         return found ? ReadResult::value : ReadResult::no_value;
     } catch (const std::exception& error) {
@@ -145,10 +161,9 @@ inline opros_any* InputDataPortImpl::pop_from_ring() {
 
 /// Returns the value that was taken or peeked at last.
 inline opros_any& InputDataPortImpl::taken() {
-    const Ring::ShortValue* const value = ring_->taken_short();
+    const Ring::Content* const value = ring_->taken_short();
     if (value == nullptr) return ring_->last();
-    if (decoded_.empty()) [[unlikely]]
-        decoded_ = port_.sample();
+    prepare_decoded();
     opros_any::holder_base& held = *decoded_.held();
     auto elements = held.elements();
     if (elements.bytes != value->size()) elements = held.resize(value->size() / held.elementBytes());

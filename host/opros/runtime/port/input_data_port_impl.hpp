@@ -58,6 +58,8 @@ class InputDataPortImpl {
     enum class ReadResult { no_value, undecodable, value };
     using Ring = tandem::rt::ValueRing<opros_any>;
 
+    bool has_my_type(const opros_any::holder_base& held);
+    bool has_equal_type(const opros_any::holder_base& held);
     // Require push_mutex_ to be held.
     std::optional<opros_any::holder_base::Memory> short_elements(opros_any& value);
     void push_into_ring(opros_any& value);
@@ -73,6 +75,7 @@ class InputDataPortImpl {
     void give_listener_to(DataPortSource* source);
     void poll_sources();
     std::optional<std::size_t> count_in_sources();
+    void prepare_decoded();
     ReadResult read_one(DataPortSource* const& source);
     opros_any* pop_after(ReadResult result);
     opros_any* pop_from_ring();
@@ -88,9 +91,9 @@ class InputDataPortImpl {
     // These change with mutex_ held and are read without it.
     std::atomic<bool> may_have_values_{false}, has_polled_sources_{false};
     std::atomic<DataPortListener*> listener_{nullptr};
+    std::atomic<const std::type_info*> type_{nullptr}; // of the port's values; NULL: not yet known
 
-    alignas(line) tandem::rt::ShortMutex push_mutex_; // for the end of ring_ that writes, and the following
-    const std::type_info* pushed_type_ = nullptr;     // of this port; NULL: not yet known
+    alignas(line) tandem::rt::ShortMutex push_mutex_; // for the end of ring_ that writes
 
     alignas(line) tandem::rt::ShortMutex mutex_; // for all that follows, and the other end of ring_
     opros::DataQueue queue_;

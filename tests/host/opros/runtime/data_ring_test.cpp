@@ -65,6 +65,11 @@ struct Counted {
     static inline int copies = 0;
 };
 
+/// Accepts a value of any type.
+struct TolerantPort : InputDataPort<Values> {
+    bool checkType(opros_any&) override { return true; }
+};
+
 /// Never has a value.
 struct EmptySource : DataPortSource {
     bool take(opros_any*) override { return false; }
@@ -192,6 +197,51 @@ TEST_CASE("short and long vectors of a FIFO come whole and in order, also when p
         delete port.pop();
     }
     CHECK(port.getContent(*kept) == vector(3));
+}
+
+TEST_CASE("a consumer may change the type of a value that it deletes") {
+    InputDataPort<Values> port;
+    const opros_any other =
+        GENERATE(opros_any(std::string("text")), opros_any(std::vector<float>{7, 7}), opros_any());
+    for (int i = 0; i < 4; ++i) {
+        Values value(3, i);
+        port.push(value);
+        const std::unique_ptr<opros_any> popped(port.pop());
+        REQUIRE(popped);
+        CHECK(port.getContent(*popped) == value);
+        opros_any(other).swap(*popped);
+    }
+}
+
+TEST_CASE("a port that accepts several types gives each value with its own") {
+    TolerantPort port;
+    for (int i = 0; i < 4; ++i) {
+        opros_any text(std::string("text")), values(Values(3, i));
+        for (opros_any* pushed : {&text, &values}) {
+            port.InputDataPort<Values>::push(*pushed);
+            const std::unique_ptr<opros_any> popped(port.pop());
+            REQUIRE(popped);
+            CHECK(popped->type() == pushed->type());
+        }
+    }
+}
+
+TEST_CASE("a port for the last value has one from the first push on") {
+    InputDataPort<Values> port(OPROS_LAST, 1);
+    std::atomic<bool> stop{false};
+    std::thread writer([&] {
+        Values value(3);
+        while (!stop) port.push(value);
+    });
+    int found = 0, missed = 0;
+    while (found < 20'000) {
+        if (port.getSize() == 0) continue;
+        ++found;
+        if (const std::unique_ptr<opros_any> value{port.pop()}; !value) ++missed;
+    }
+    stop = true;
+    writer.join();
+    CHECK(missed == 0);
 }
 
 TEST_CASE("values that wait stay in order when a port gets a source, loses it, or gets another queue") {

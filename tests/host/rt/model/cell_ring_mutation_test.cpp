@@ -18,7 +18,7 @@ const std::vector<Spared> spared{
     {ring, "A::copy_atomic_from_shared(", order, {}, copying},
     {ring, "published_.store(writer_.position", order, {}, counting},
     {ring, "published = published_.load(", order, {}, counting},
-    {ring, "published_.load(std::memory_order_acquire) - depth_", order, {}, counting},
+    {ring, "published_.load(std::memory_order_acquire) - depth()", order, {}, counting},
 };
 
 TEST_CASE("Each damaged access of the cell ring is noticed") {

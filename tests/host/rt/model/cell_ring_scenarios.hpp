@@ -16,7 +16,7 @@ class CellRingWorld {
     enum class Length { one_word, two_words, longer };
 
     CellRingWorld(Execution& execution, std::size_t depth)
-        : execution_(execution), ring_(depth), values_(std::make_unique<A::Cell[]>(depth + 2)) {}
+        : execution_(execution), ring_(depth), values_(std::make_unique<A::Cell[]>(depth + 3)) {}
 
     void write(Length length) {
         const std::uint64_t number = ++published_;
@@ -39,11 +39,12 @@ class CellRingWorld {
         ++received_;
         return true;
     }
-    void peek() {
-        if (!ring_.peek()) return;
+    bool peek() {
+        if (!ring_.peek()) return false;
         peeked_ = number_of_taken();
         ++looks_;
-        require(peeked_ == 0 || peeked_ > last_, "no value that was taken is looked at");
+        require(peeked_ > last_, "no value that was taken is looked at");
+        return true;
     }
     bool empty() const { return ring_.empty(); }
     std::uint64_t last() const { return last_; }
@@ -104,7 +105,8 @@ inline void run_cell_ring(const CellRingPlan& plan, Execution& execution) {
     execution.thread("reader", [&] {
         for (int i = 0; i < plan.reads; ++i) {
             if (plan.peeks) world.peek();
-            if (!world.empty()) world.read();
+            const bool finds_one = plan.peeks ? world.peek() : !world.empty();
+            if (finds_one) world.require(world.read(), "a ring that has a value never looks empty");
         }
     });
     execution.run();
@@ -115,18 +117,22 @@ inline std::vector<Case> cell_ring_cases() {
     constexpr auto one = CellRingPlan::Length::one_word, two = CellRingPlan::Length::two_words,
                    longer = CellRingPlan::Length::longer;
     const std::vector<CellRingPlan> plans{
-        {"two values in a cell", 1, {two, two}, 1},
-        {"three values in a cell", 1, {one, one, one}, 2},
-        {"three values in two cells", 2, {one, one, one}, 2},
-        {"four values in two cells", 2, {one, one, one, one}, 2, false, false},
+        {"two values with a depth of 1", 1, {two, two}, 1},
+        {"three values with a depth of 1", 1, {one, one, one}, 2},
+        {"three values with a depth of 2", 2, {one, one, one}, 2},
+        {"four values with a depth of 2", 2, {one, one, one, one}, 2, false, false},
+        {"four values with a depth of 3", 3, {one, one, one, one}, 2, false, false},
+        {"two values after two with a depth of 2", 2, {one, one}, 2, false, false, 2},
         {"a long value after a short one", 1, {one, longer}, 1},
         {"a short value after a long one", 1, {longer, one}, 2},
+        {"a long value in the cell of a short one", 1, {one, one, longer}, 2, false, false},
         {"long values", 1, {longer, longer}, 2},
-        {"long values in two cells", 2, {longer, longer, longer}, 2},
-        {"long values whose memory is used again", 2, {longer, longer, longer}, 2, false, false, 2},
-        {"all lengths in two cells", 2, {two, longer, one}, 2, false, false},
+        {"long values with a depth of 2", 2, {longer, longer, longer}, 2},
+        {"long values whose memory is used again", 2, {longer, longer, longer, longer}, 2, false, false, 2},
+        {"all lengths with a depth of 2", 2, {two, longer, one}, 2, false, false},
         {"a look at values that are dropped", 1, {one, two}, 2, true},
-        {"a look at values in two cells", 2, {one, longer, one}, 2, true, false},
+        {"a look at values with a depth of 2", 2, {one, longer, one}, 2, true, false},
+        {"a look at values that waited with a depth of 2", 2, {one, one}, 2, true, false, 2},
     };
     std::vector<Case> cases;
     for (const auto& plan : plans)

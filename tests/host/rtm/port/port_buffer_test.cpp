@@ -179,6 +179,18 @@ TEST_CASE("A port's buffer can take back what was read and what was written last
     for (int i = 0; i < 3; ++i) both.check(read_one);
 }
 
+TEST_CASE("A port's buffer can take back what was written last after it has dropped messages") {
+    const long count = GENERATE(1, 2, 4);
+    Both both(properties("overwrite", "do_nothing", 4));
+    for (unsigned char value = 1; value <= 10; ++value)
+        both.check([&](RTC::CdrBufferBase& buffer) { return step(buffer, 0, value); });
+    both.check([&](RTC::CdrBufferBase& buffer) { return Result(buffer.advanceWptr(-count), 0); });
+    both.check(read_one);
+    for (unsigned char value = 11; value <= 13; ++value)
+        both.check([&](RTC::CdrBufferBase& buffer) { return step(buffer, 0, value); });
+    for (int i = 0; i < 5; ++i) both.check(read_one);
+}
+
 TEST_CASE("A new length drops the messages of a port's buffer") {
     RTC::PortBuffer buffer;
     CHECK(buffer.length() == 8);

@@ -56,7 +56,7 @@ RING = [
             lambda r, m: r["content_read"] == 9 and r["filled_for_read"] == 1, filled_for=1),
 ]
 
-# The word of a cell is 1 while its value is to be read. The writer takes it away by 2, the reader takes it by 3.
+# The word of a cell is 1 while its value is to be read. The writer drops it by 2, the reader takes it by 3.
 CELLS = [
     pattern("a value whose word was read is whole",
             "BasicCellRing::publish_content(), take()",
@@ -64,12 +64,17 @@ CELLS = [
              [load("word_read", "word", "acquire"), load("bytes_read", "bytes")]],
             lambda r, m: r["word_read"] == 1 and r["bytes_read"] == 0),
     pattern("a short value that the reader could take was not overwritten while it was copied",
-            "BasicCellRing::take_away_oldest(), try_take()",
-            [[exchange("before", "word", 2, "acquire"), store("bytes", 9)],
+            "BasicCellRing::make_room(), try_take()",
+            [[exchange("before", "word", 2, "acq_rel"), store("bytes", 9)],
              [load("bytes_read", "bytes"), compare_exchange("taken", "word", 1, 3, "release")]],
             lambda r, m: r["taken"] == 1 and r["bytes_read"] == 9, word=1),
+    pattern("a reader that sees that a value was dropped sees the newer one",
+            "BasicCellRing::publish_content(), catch_up()",
+            [[store("newer", 1, "release"), exchange("before", "word", 2, "acq_rel")],
+             [load("word_read", "word", "acquire"), load("newer_read", "newer", "acquire")]],
+            lambda r, m: r["word_read"] == 2 and r["newer_read"] == 0, spare=[(0, 0), (1, 1)], word=1),
     pattern("a cell that was read is not filled before the reader has copied it",
-            "BasicCellRing::publish_content(), try_take()",
+            "BasicCellRing::make_room(), try_take()",
             [[load("word_read", "word", "acquire"), store("bytes", 9)],
              [load("bytes_read", "bytes"), compare_exchange("taken", "word", 1, 3, "release")]],
             lambda r, m: r["word_read"] == 3 and r["bytes_read"] == 9, word=1),

@@ -100,7 +100,7 @@ void copy(const EncodedMessage& from, ByteData& to) {
 
 using Ring = tandem::rt::ValueRing<ByteData>;
 
-EncodedMessage as_message(const Ring::ShortValue& value) { return {value.bytes(), value.size(), true}; }
+EncodedMessage as_message(const Ring::Content& value) { return {value.bytes(), value.size(), true}; }
 
 /// Returns the message that was taken last.
 EncodedMessage last_message(Ring& ring) {
@@ -113,7 +113,7 @@ EncodedMessage last_message(Ring& ring) {
 bool publish_next(Ring& ring) {
     const ByteData& next = ring.next();
     const unsigned char* const bytes = next.getBuffer();
-    if (next.getDataLength() <= Ring::ShortValue::max_size && next.getEndian())
+    if (next.getDataLength() <= Ring::Content::max_size && next.getEndian())
         return ring.publish_short(bytes, next.getDataLength());
     return ring.publish({&next, bytes, bytes + Ring::line, bytes});
 }
@@ -193,7 +193,7 @@ inline BufferStatus PortBuffer::try_store(Turn& turn, const Publish& publish, bo
     turn.waits = turn.timeout > 0ns || (turn.timeout < 0ns && block_write_);
     turn.wakes = block_read_;
     if (turn.waits && turn.timeout < 0ns) turn.timeout = write_timeout_;
-    if (ring_->is_full() && (turn.waits || !overwrite_)) return BufferStatus::FULL;
+    if ((turn.waits || !overwrite_) && ring_->is_full()) return BufferStatus::FULL;
     return publish(overwritten) ? BufferStatus::OK : BufferStatus::NOT_SUPPORTED;
 }
 
@@ -248,8 +248,8 @@ bool PortBuffer::publish_encoded(const Marshal& marshal, bool& dropped) {
     const auto& numbers = marshal.numbers();
     // The value of a rehearsal is short, also at a port for long ones.
     const bool is_long = rehearsing() && ring_->next().getBuffer() != nullptr;
-    if (!is_long && are_block(numbers) && encoded_bytes(numbers) <= Ring::ShortValue::max_size) {
-        std::array<unsigned char, Ring::ShortValue::max_size> bytes;
+    if (!is_long && are_block(numbers) && encoded_bytes(numbers) <= Ring::Content::max_size) {
+        std::array<unsigned char, Ring::Content::max_size> bytes;
         encode_numbers(numbers, bytes.data());
         if (!rehearsing()) dropped = ring_->publish_short(bytes.data(), encoded_bytes(numbers));
         return true;
@@ -344,9 +344,9 @@ std::size_t PortBuffer::writable() const {
     return ring_->depth() - ring_->size();
 }
 
-/// Gives each short message a ByteData. Call it with both mutexes held, before an access by offset.
+/// Gives each short message a ByteData, and counts dropped ones as read. Call it with both mutexes held, before an access by offset.
 void PortBuffer::settle() {
-    ring_->settle([this](std::uint32_t index, const Ring::ShortValue& value) {
+    ring_->settle([this](std::uint32_t index, const Ring::Content& value) {
         copy(as_message(value), ring_->at(index));
     });
 }
@@ -360,9 +360,9 @@ ByteData* PortBuffer::wptr(long n) {
 BufferStatus PortBuffer::advanceWptr(long n, bool /*unlock_enable*/) {
     {
         const std::scoped_lock lock(write_mutex_, read_mutex_);
+        settle();
         const long filled = static_cast<long>(ring_->size()), depth = static_cast<long>(ring_->depth());
         if (n > depth - filled || n < -filled) return BufferStatus::PRECONDITION_NOT_MET;
-        settle();
         for (; n > 0; --n) ring_->publish();
         for (; n < 0; ++n) ring_->unpublish();
     }
@@ -385,9 +385,9 @@ ByteData* PortBuffer::rptr(long n) {
 BufferStatus PortBuffer::advanceRptr(long n, bool /*unlock_enable*/) {
     {
         const std::scoped_lock lock(write_mutex_, read_mutex_);
+        settle();
         const long filled = static_cast<long>(ring_->size()), depth = static_cast<long>(ring_->depth());
         if (n > filled || n < filled - depth) return BufferStatus::PRECONDITION_NOT_MET;
-        settle();
         has_last_ = has_last_ || n > 0;
         for (; n > 0; --n) ring_->take();
         for (; n < 0; ++n) ring_->untake();
