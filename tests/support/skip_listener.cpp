@@ -8,16 +8,18 @@
 
 namespace {
 
-class SkipListener : public Catch::TestEventListenerBase {
+using Listener = Catch::TestEventListenerBase; // with Catch2 3, the name is an alias
+
+class SkipListener : public Listener {
   public:
-    using TestEventListenerBase::TestEventListenerBase;
+    using Listener::Listener;
 
     void testCaseEnded(const Catch::TestCaseStats& stats) override {
         std::string& reason = tandem::test::skipped_because;
         if (!reason.empty() && stats.totals.assertions.allOk())
             std::cout << "tandem-test-skipped: " << reason << std::endl;
         reason.clear();
-        TestEventListenerBase::testCaseEnded(stats);
+        Listener::testCaseEnded(stats);
     }
 };
 
