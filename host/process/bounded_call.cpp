@@ -83,7 +83,7 @@ void run_without_thread(const BoundedCall::Series& series, std::size_t first, co
             limit.emplace(
                 series.timeout(i),
                 std::string("error: a component's code does not return while the host ends, and the "
-                            "host cannot go on without it: ") +
+                            "host cannot continue without it: ") +
                     error.what(),
                 1);
         series.work(i);

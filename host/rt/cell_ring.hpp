@@ -148,7 +148,7 @@ class BasicCellRing {
     static std::uint32_t index(std::uint64_t word) {
         return static_cast<std::uint32_t>(word & (unread_bit - 1));
     }
-    /// Returns how far the position of a word, of which the word has 43 bits, lies behind `position`.
+    /// Returns how far the position in a word, which has 43 bits of it, is behind `position`.
     static std::int64_t distance(std::uint64_t word, std::uint64_t position) {
         return static_cast<std::int64_t>((word & ~(2 * unread_bit - 1)) - (position << position_shift)) >>
                position_shift;
@@ -299,7 +299,7 @@ template <class A>
 void BasicCellRing<A>::catch_up() {
     const std::uint64_t word = cells_[reader_.cell].word.load(std::memory_order_relaxed);
     const std::int64_t ahead = distance(word, reader_.position);
-    if (ahead == 0 && !is_unread(word)) { // the writer fills the cell anew
+    if (ahead == 0 && !is_unread(word)) { // the writer refills the cell
         step(reader_);
     } else if (ahead > 0) {
         // The word is of the newest value of this cell. published_ may be one behind.

@@ -16,7 +16,7 @@ constexpr std::int64_t ms = 1'000'000;
 // A cycle that takes longer than this part of the period, or than this time, delays others too much.
 constexpr std::int64_t share_part = 4, longest_share = ms;
 constexpr int slow_cycles_in_a_row = 3;
-// Each member notes the lines of its cycle anew after so many rounds.
+// Each member records the cache lines of its cycle again after this number of rounds.
 constexpr std::size_t rounds_per_note = 64;
 // A cycle hangs if it takes longer than the period, within these limits.
 constexpr std::int64_t shortest_hang = 20 * ms, longest_hang = 100 * ms;

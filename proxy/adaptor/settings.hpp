@@ -34,7 +34,7 @@ struct Settings {
     std::map<std::string, std::string>
         policies;        ///< `keep_last`, `wait_ms`, `deadline_ms`, and `.PORT` for one port
     bool strict = false; ///< `strict`: a refused connection is an error when the component is started
-    std::string group;   ///< `group`: may join the link besides the owner; empty: only the owner
+    std::string group;   ///< `group`: may join the link, like the owner; empty: only the owner
 
     /// Returns the conversion requested for the port; empty if there is none.
     std::string conversion(const std::string& port) const {

@@ -14,7 +14,7 @@
 namespace tandem::interceptor {
 namespace {
 
-/// Returns whether the shared port is the RTC's port `name`. The RTC's name may stand in front of the shared port's name.
+/// Returns whether the shared port is the RTC's port `name`. The RTC's name may precede the shared port's name.
 bool is_named(const link::Port& shared, const std::string& component, const std::string& name) {
     return shared.component == component && (shared.name == name || shared.name == component + "." + name);
 }
@@ -185,7 +185,7 @@ void SharedPorts::share_again(RtcPort& shared, RtcPort port) {
     }
     connect(port);
     if (!table_.find(name)) table_.ports.push_back(port.entry);
-    log::info("{}: port '{}' of {} is there again", owner_.getInstanceName(), name, port.entry.component);
+    log::info("{}: port '{}' of {} is available again", owner_.getInstanceName(), name, port.entry.component);
 }
 
 /// Gives a port that was added again with another type another mirror, or the mirror that it had with this type before.

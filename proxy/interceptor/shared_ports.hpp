@@ -30,7 +30,7 @@ class SharedPorts {
     void share(const SharedRtcs& shared);
     /// Follows the ports that an RTC of this process adds and removes from now on. [before Link::open()]
     void watch(RTC::RTObject_impl& rtc);
-    /// Follows an RTC of another process. `ports`: its present ports; empty if it has gone. [task-thread]
+    /// Follows an RTC of another process. `ports`: its current ports; empty if it has gone. [task-thread]
     void follow(const std::string& component, std::vector<RtcPort> ports);
 
   private:

@@ -285,8 +285,8 @@ inline bool RingConsumer<A>::move_tail(std::uint64_t& from, std::uint64_t to,
 }
 
 /// Moves the tail from its current position to the end of `parsed`. The copy made before is whole if the tail has not
-/// passed the record's start. The commit word at the tail contains the oldest sequence number and thus gives the number of
-/// skipped records (padding has the number of the record behind it).
+/// passed the record's start. The commit word at the tail contains the oldest sequence number, from which follows the
+/// number of skipped records (padding has the number of the record behind it).
 template <class A>
 bool RingConsumer<A>::take(const ParsedRecord& parsed, std::uint64_t tail, std::uint64_t& skipped) {
     for (int attempt = 0; attempt < max_attempts && tail <= parsed.start; ++attempt) {

@@ -112,7 +112,7 @@ bool ChannelWriter::drop_for_room(const std::string& why) {
 }
 
 /// Polls, because a reader does not notify the writer: that would cost every reader a system call. Makes system calls
-/// only while the ring is full. Of several targets, one that reads nothing makes only one message wait in vain.
+/// only while the ring is full. If one of several targets reads nothing, only one message waits until the time limit.
 bool ChannelWriter::wait_for_room(std::size_t bytes) {
     constexpr auto pause = std::chrono::microseconds(50);
     const auto deadline = std::chrono::steady_clock::now() + policy_.wait;
