@@ -35,7 +35,7 @@ class Parser {
     Type parse_type(int depth) {
         if (depth > max_depth) fail("nesting is deeper than 32");
         if (++parts_ > max_parts) fail("it has more than 65536 parts");
-        if (position_ == text_.size()) fail("it ends, expected a type");
+        if (position_ == text_.size()) fail("it ends where a type is expected");
         const char code = text_[position_++];
         switch (code) {
         case 'a': {

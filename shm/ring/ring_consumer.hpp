@@ -169,8 +169,8 @@ inline const Record* RingConsumer<A>::read() {
     // In scratch_ like the last record, otherwise expected_ would be not_expected: see read_slowly().
     record_.bytes = {record_.bytes.data(), length};
     record_.stamp_ns = stamp;
-    // Comes after the instruction that waits for all earlier loads: the load of this line, which usually shows that the
-    // record is the newest, delays nothing there.
+    // Comes after the instruction that waits for all earlier loads, so the load of this line delays nothing. It usually
+    // shows that the record is the newest.
     if (depth_ != 0 && A::load(*ring_.cell(position + size), std::memory_order_relaxed) != 0) [[unlikely]]
         return count_or_skip(length);
     return count(record_.sequence + 1, length, shared);

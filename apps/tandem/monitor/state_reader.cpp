@@ -18,7 +18,7 @@ std::uint64_t milliseconds_since_epoch() {
     return static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::milliseconds>(now).count());
 }
 
-/// Notes what a bound left out. The first note stays, so that the text is one line.
+/// Notes what was left out because of a limit. Only the first note is kept, so that the text is one line.
 void add_cut(State& state, const std::string& text) {
     if (state.cut.empty()) state.cut = text;
 }

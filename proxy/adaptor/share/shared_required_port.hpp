@@ -28,7 +28,7 @@ class SharedRequiredPort final : public ProvidedServicePort {
     void bind(const link::control::ServiceBinding& binding);
 
     bool isDynamic() const override { return true; }
-    /// Stores the method. Whether it fits is reported when the peer has told the operations.
+    /// Stores the method. A mismatch is reported when the peer has sent its operations.
     std::string bindMethod(Method* required) override;
     ReturnType callService(std::string& name, std::vector<opros_params>& arguments,
                            opros_params& result) override;

@@ -30,8 +30,8 @@ class Systems {
     std::vector<std::string> save_command(const std::string& name, const std::vector<std::string>& hosts,
                                           bool replace) const;
 
-    /// Starts `tandem run` with the log NAME/run.log. Throws std::invalid_argument also if it runs, also if another monitor
-    /// has started it, or if max_runs run.
+    /// Starts `tandem run` with the log NAME/run.log. Also throws std::invalid_argument if it already runs (even if another
+    /// monitor has started it), or if max_runs systems run.
     void start(const std::string& name);
     /// Asks a run to end. Throws std::invalid_argument if it does not run.
     void stop(const std::string& name);
