@@ -115,7 +115,7 @@ class Parser {
             add_member(type, std::move(member));
         }
         if (!skip_char('>')) fail("'>' is missing");
-        if (type.children.size() == 1) fail("a union has a case at least");
+        if (type.children.size() == 1) fail("a union must have at least one case");
         return type;
     }
 

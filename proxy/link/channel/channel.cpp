@@ -151,8 +151,8 @@ bool ChannelWriter::report_refusal(std::size_t bytes) {
     if (bytes > limit) {
         // Logs once per limit, because a component sends such messages in every cycle.
         if (limit != std::exchange(reported_limit_, limit))
-            log::error("port '{}': a message of {} bytes is longer than {} and is dropped, as all such "
-                       "will be; raise large_kib to {} or more",
+            log::error("port '{}': a message of {} bytes is longer than {} and is dropped, like each longer "
+                       "one; raise large_kib to {} or more",
                        port_, bytes, limit, (bytes + 1023) / 1024);
     } else if (!bound_->ring.corrupt() && no_memory_.should_log()) {
         log::error("port '{}': a message of {} bytes finds no memory in {} and is dropped, {} so far; {} "
