@@ -29,8 +29,8 @@ class RemoteRtcs {
     RemoteRtcs(std::string owner, const Settings& settings, Events events);
 
     /// Looks once for the RTCs in `names` that are in other processes, and adds those that exist to `shared`. `names` are
-    /// those of the parameter `rtc`. Throws std::runtime_error if two RTCs have one name, or if one is not there and the
-    /// user is strict.
+    /// those of the parameter `rtc`. Throws std::runtime_error if two RTCs have one name, or if one does not exist and
+    /// `strict` is set.
     void find(const std::vector<std::string>& names, SharedRtcs& shared);
     /// Hands the RTC with this name in the parameter `rtc` over to its new owner, who destroys it before this object.
     std::unique_ptr<RemoteRtc> take(const std::string& name);

@@ -111,7 +111,7 @@ class alignas(layout::line_pair) RingProducer {
 
     RingView<A> ring_;
     std::uint64_t head_, tail_; // tail as this end last saw it
-    // Up to here, records need neither padding nor a look at the tail. 0: unknown, corrupt, or the next record is sampled.
+    // Up to here, records need neither padding nor a check of the tail. 0: unknown, corrupt, or the next record is sampled.
     std::uint64_t room_end_ = 0;
     std::uint64_t cleared_at_; // the position at which 0 was stored last
     std::uint64_t sequence_;   // of the newest record

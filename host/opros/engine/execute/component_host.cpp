@@ -22,7 +22,7 @@ namespace {
 
 // How long a requested transition waits for the current cycle.
 constexpr std::chrono::seconds max_cycle_wait{5};
-// How long a reader of the properties does.
+// How long a reader of the properties waits for it.
 constexpr std::chrono::seconds max_read_wait{1};
 
 } // namespace

@@ -223,7 +223,7 @@ TEST_CASE("components that are not active, and what a host does not do, are find
     check(Level::dropping, "rtm_host (pid 22): the tool that observes Arm0 does not answer");
 }
 
-TEST_CASE("what a look could not see, and a recording that has failed, are findings") {
+TEST_CASE("what a scan could not read, and a recording that has failed, are findings") {
     State state = state_of({sound_link()});
     state.cut = "link chair: not all messages were read";
     CHECK(judge(state).level == Level::unseen);
