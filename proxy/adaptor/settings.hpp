@@ -41,7 +41,7 @@ struct Settings {
         const auto at = conversions.find(port);
         return at == conversions.end() ? "" : at->second;
     }
-    /// Returns the port with the operations configured for it, if the peer has told none.
+    /// Returns the port with the operations configured for it, if the peer has sent none.
     link::Port with_operations(link::Port port) const {
         const auto at = operations.find(port.name);
         if (at != operations.end() && !link::is_data_port(port.kind) && port.operations.empty())

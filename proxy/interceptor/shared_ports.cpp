@@ -118,7 +118,7 @@ void SharedPorts::follow(const std::string& component, std::vector<RtcPort> port
             }
         }
         share_new(std::move(new_ports));
-    } catch (const std::runtime_error& error) { // it cannot be connected, and the user is strict
+    } catch (const std::runtime_error& error) { // it cannot be connected, and `strict` is set
         log::error("{}: {}", owner_.getInstanceName(), error.what());
     }
     link_.set_ports(table_);
@@ -163,7 +163,7 @@ void SharedPorts::port_added(RTC::RTObject_impl& rtc, const std::string& name) {
                 new_ports.push_back(std::move(port));
         }
         share_new(std::move(new_ports));
-    } catch (const std::runtime_error& error) { // it cannot be connected, and the user is strict
+    } catch (const std::runtime_error& error) { // it cannot be connected, and `strict` is set
         log::error("{}: {}", owner_.getInstanceName(), error.what());
     } catch (const CORBA::Exception& error) { // the RTC is being deleted
         log::error("{}: port '{}' of {} cannot be asked: {}", owner_.getInstanceName(), name, component,

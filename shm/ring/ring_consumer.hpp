@@ -201,7 +201,7 @@ const Record* RingConsumer<A>::read_slowly(std::uint64_t depth, std::uint64_t wo
     return record;
 }
 
-/// Finds the oldest record of the `depth` newest. `is_oldest` tells whether it is the oldest of all.
+/// Finds the oldest record of the `depth` newest. `is_oldest`: whether it is the oldest of all.
 template <class A>
 ParseResult RingConsumer<A>::parse(std::uint64_t tail, std::uint64_t depth, ParsedRecord& parsed,
                                    bool& is_oldest) const {

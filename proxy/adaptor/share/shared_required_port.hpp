@@ -15,7 +15,7 @@
 namespace tandem::adaptor {
 
 /// Connected with a required service port of a shared component: a provider on the RTM side, whose interface is known only
-/// after the peer has told it. Until then calls throw MethodInvokeException, "not ready".
+/// after the peer has sent it. Until then calls throw MethodInvokeException, "not ready".
 class SharedRequiredPort final : public ProvidedServicePort {
   public:
     /// `port` is the required port's entry in the port table. The link must outlive this port.

@@ -2,7 +2,7 @@
 // Replaces five functions of omniORB 4.2 and 4.3, which calls them through the dynamic symbol table. That finds the
 // definitions in this library first.
 //
-// GIOP_S_Holder is the request that a thread serves. If an exception that is none of CORBA ends a request before its
+// GIOP_S_Holder is the request that a thread serves. If an exception that is not a CORBA exception ends a request before its
 // arguments are read, omniORB reports success and keeps the message: the thread serves it again, without end, also after
 // the peer has gone. Such exceptions are its own failed assertions (the object key "\0", an address of kind 1 or 2 in
 // GIOP 1.2) and the end of a fragmented request by a CancelRequest.
