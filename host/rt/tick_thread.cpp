@@ -146,7 +146,7 @@ void TickThread::run_cycle(Lock& lock, const std::shared_ptr<SharedTick>& tick, 
     lock.unlock();
     if (notes_lines) {
         note_lines(*tick);
-        now = monotonic_ns(); // the rehearsal is no part of the cycle
+        now = monotonic_ns(); // the rehearsal is not part of the cycle
     }
     const std::int64_t began = now;
     const auto after = tick->work_.cycle({planned, began, tick->overran_, tick->took_});

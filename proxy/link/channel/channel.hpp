@@ -107,7 +107,7 @@ class ChannelWriter {
     void refuse(std::string_view why);
 
     bool is_bound() const;
-    /// Returns true if a write that has returned `written` was no failure: without a peer, the port is not connected.
+    /// Returns true if a write that has returned `written` did not fail: without a peer, the port is not connected.
     bool is_success(bool written) const { return written || rt::rehearsing() || !is_bound(); }
     /// Returns the maximum size of a record of the ring in bytes, or 0 without a ring.
     std::size_t longest_record() const;

@@ -8,8 +8,8 @@
 // GIOP 1.2) and the end of a fragmented request by a CancelRequest.
 //
 // giopStream::ensureSaneHeader() reads the header of a message. A size of 2^32 - 12 wraps to 0, and omniORB then splits
-// the message into empty ones until the memory is used up. A fragment larger than its buffer, whose size is no multiple
-// of 8, makes the copy of a long sequence continue without end.
+// the message into empty ones until the memory is used up. A fragment larger than its buffer, whose size is not a
+// multiple of 8, makes the copy of a long sequence continue without end.
 //
 // giopStrand::safeDelete() releases the socket of a connection. When the ORB ends, omniORB gives each connection that has no
 // dedicated thread another worker, even if one still waits for a thread. If both workers find that the connection is refused,
