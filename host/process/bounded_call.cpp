@@ -109,7 +109,7 @@ void BoundedCall::run_series(const Series& series) {
         std::thread thread;
         try {
             thread = start_thread([task] { (*task)(); });
-        } catch (const NotStarted& error) { // the host still ends in order
+        } catch (const NotStarted& error) { // the host still ends cleanly
             const FinishedOnExit counted;
             return run_without_thread(series, first, error);
         }

@@ -109,7 +109,7 @@ class Parser {
             if (!skip_char('*')) do
                     labels.push_back(parse_label());
                 while (skip_char(','));
-            if (!skip_char('=')) fail("expected '=' behind the labels of a union's case");
+            if (!skip_char('=')) fail("expected '=' after the labels of a union's case");
             Type member = parse_member(depth + 1);
             member.labels = std::move(labels);
             add_member(type, std::move(member));

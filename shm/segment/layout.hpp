@@ -99,7 +99,7 @@ struct alignas(line_pair) SideHeader {
     Word32 pid;   // with the next three words: the process, see process_identity.hpp
     Word64 joined_ns;
     Word64 pid_namespace, time_namespace, start_ticks;
-    Word32 left; // 1 once the side has left in order, for observers; set before its lock is given back
+    Word32 left; // 1 once the side has left cleanly, for observers; set before its lock is given back
     std::byte unused0[84];
     DoorbellWords doorbell;              // of this side: the other rings it
     alignas(line_pair) Word32 published; // 0 = nothing yet, else 1 + number of valid directory entries

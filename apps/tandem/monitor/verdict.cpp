@@ -67,7 +67,7 @@ void judge_end(const LinkState& link, Side side, Findings& findings) {
     const bool in_order = link.side(side).left;
     findings.add(in_order ? Level::gone : Level::dead,
                  fmt::format("link {}: {} has {}", link.name, host_of(link, side),
-                             in_order ? "ended in order" : "died"));
+                             in_order ? "ended cleanly" : "died"));
 }
 
 void judge_sides(const LinkState& link, Findings& findings) {

@@ -21,7 +21,7 @@ class Systems {
 
     /// `program`: path of tandem. Throws std::runtime_error if the folder does not exist.
     Systems(const std::filesystem::path& folder, std::string program);
-    ~Systems(); ///< ends the runs in order
+    ~Systems(); ///< ends the runs cleanly
 
     /// Return the command that lists the folder, writes a new system, or saves the hosts with these process ids.
     std::vector<std::string> list_command() const;

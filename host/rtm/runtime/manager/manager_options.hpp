@@ -35,7 +35,7 @@ struct Manager::Options : HostOptions {};
 HostOptions host_options();
 
 /// Returns what did not return when the manager was shut down, for example `onExecute of Camera0, its destructor of
-/// Arm0`. Empty if everything ended in order. [any-thread]
+/// Arm0`. Empty if everything ended cleanly. [any-thread]
 std::string left_behind(Manager& manager);
 
 /// Ends the manager in the calling thread, even during its set-up, for a program whose set-up hangs. Returns the result of

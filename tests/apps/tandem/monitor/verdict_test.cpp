@@ -59,7 +59,7 @@ TEST_CASE("the verdict names what is wrong, and where") {
         link.sides[1].gone = true;
         check(Level::dead, "link chair: the RTM host rtm_host (pid 22) has died");
         link.sides[1].left = true;
-        check(Level::gone, "link chair: the RTM host rtm_host (pid 22) has ended in order");
+        check(Level::gone, "link chair: the RTM host rtm_host (pid 22) has ended cleanly");
     }
     SECTION("a port of a type unknown to the other model") {
         link.shared_ports = {
