@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How two processes that know only the link's name reach the same generation, whichever comes first, dies or returns, and
-// however many processes come at once.
+// How two processes that know only the link's name reach the same generation, in any order of arrivals, deaths and
+// returns, and with any number of processes at the same time.
 //
 // All decisions about one file (join it, leave it, remove it) are made under its hand-over byte. What remains is a race
 // between two files: A creates generation 2, because it found its own dead side in generation 1. Meanwhile B leaves

@@ -20,9 +20,9 @@ struct Plan {
 };
 
 /// [driver] Each run measures all cases once, so the two cases of a ratio are measured within a minute, and a
-/// drift of the machine affects all cases alike. The row of a case that fails contains the reason. After the
-/// runs, the cases of all missed_limits() are measured twice more, which counts as two more runs. Ends early
-/// after an interrupt.
+/// drift of the machine affects all cases equally. The row of a case that fails contains the reason. After
+/// the runs, the cases of all missed_limits() are measured twice more, which counts as two more runs. Ends
+/// early after an interrupt.
 Report measure(const Plan& plan);
 
 /// Returns the cases whose id contains one of the patterns (separated by commas), or all cases without a

@@ -27,7 +27,7 @@ using namespace std::chrono_literals;
 constexpr auto stop_grace = 5s;
 // A request to end may arrive as several signals: timeout(1) sends one to the process and one to its group.
 constexpr double one_request_s = 1.0;
-// A host that ends sooner after its start has ended quickly.
+// A host that ends within this time after its start counts as failed at once.
 constexpr double long_enough_s = 10.0;
 constexpr auto first_restart_delay = 100ms, max_restart_delay = 10'000ms;
 

@@ -53,7 +53,7 @@ struct Host : HostCommand {
 };
 
 /// Starts, watches and stops hosts. While it exists, it blocks SIGINT, SIGTERM, SIGHUP and SIGQUIT of this
-/// program, and watch() reports them, so that the hosts can be stopped in order. At SIGTSTP (Ctrl-Z), watch()
+/// program, and watch() reports them, so that the hosts can be stopped cleanly. At SIGTSTP (Ctrl-Z), watch()
 /// gives the user's terminal back and stops this program; the hosts continue. [main-thread]
 class Supervisor {
   public:

@@ -203,7 +203,7 @@ void append_exception() {
     end_by_signal(SIGABRT);
 }
 
-/// For signals whose default action writes a core dump, but which are no fault of the code that they interrupt.
+/// For signals whose default action writes a core dump, but which are not caused by the code that they interrupt.
 void on_core_dump(int number) { end_by_signal(number); }
 
 void handle_core_dumps() {

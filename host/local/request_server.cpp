@@ -121,7 +121,7 @@ int RequestServer::State::wait_time() const {
 void RequestServer::State::serve(const std::shared_ptr<State>& self) {
     pthread_setname_np(pthread_self(), "control");
     while (!is_stopping()) {
-        // A full server does not look at new clients, which wait in the queue of the socket.
+        // A full server does not accept new clients, which wait in the queue of the socket.
         const short accepts = clients.size() < max_clients ? POLLIN : 0;
         std::vector<pollfd> watched{{wake.get(), POLLIN, 0}, {listener->get(), accepts, 0}};
         for (const Client& client : clients) {
@@ -153,7 +153,7 @@ void RequestServer::State::accept_clients() {
 /// Returns false if the connection must be closed.
 bool RequestServer::State::advance(Client& client, const std::shared_ptr<State>& self) {
     if (!client.received.fill(client.socket.get()))
-        return false; // the answer() of a client that left goes on
+        return false; // the answer() of a client that left still runs
     if (client.task)
         take_reply(client);
     else if (auto request = client.closes ? std::nullopt : client.received.take())

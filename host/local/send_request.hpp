@@ -9,7 +9,7 @@
 
 namespace tandem::local {
 
-/// The process at the socket has ended, or is none of this user's.
+/// The process at the socket has ended, or belongs to another user.
 struct NobodyListens : std::runtime_error {
     using std::runtime_error::runtime_error;
 };

@@ -14,7 +14,7 @@ namespace tandem::log {
 /// counted, and the log says how many are missing when it can be written again.
 void open(const std::string& program);
 
-/// Writes a line to the log as it is. Before open(), writes it to standard error. Does not throw. [any-thread]
+/// Writes a line to the log unchanged. Before open(), writes it to standard error. Does not throw. [any-thread]
 void print(std::string_view line);
 
 /// Reports lines that are missing, if the log can be written again. Does not throw. [any-thread]

@@ -28,7 +28,7 @@ struct OprosHostOptions {
     }
 };
 
-/// Parses the command line. Returns nothing after --help, --version or a mistake, for which it has printed the
+/// Parses the command line. Returns nothing after --help, --version or an error; it has then printed the
 /// answer. `exit_code` is then the program's exit code.
 std::optional<OprosHostOptions> parse_opros_host_options(int argc, char** argv, int& exit_code);
 

@@ -120,7 +120,7 @@ void check_segments(const ElfFile& elf) {
         if (segment.p_type == PT_LOAD && !elf.contains_range(segment.p_offset, segment.p_filesz))
             elf.fail_damaged("it ends at byte " + std::to_string(elf.size()) + ", before the " +
                              std::to_string(segment.p_filesz) + " bytes at " +
-                             std::to_string(segment.p_offset) + " that are to be mapped");
+                             std::to_string(segment.p_offset) + " that must be mapped");
     }
 }
 

@@ -83,7 +83,7 @@ void run_without_thread(const BoundedCall::Series& series, std::size_t first, co
             limit.emplace(
                 series.timeout(i),
                 std::string("error: a component's code does not return while the host ends, and the "
-                            "host cannot go on without it: ") +
+                            "host cannot continue without it: ") +
                     error.what(),
                 1);
         series.work(i);
@@ -109,7 +109,7 @@ void BoundedCall::run_series(const Series& series) {
         std::thread thread;
         try {
             thread = start_thread([task] { (*task)(); });
-        } catch (const NotStarted& error) { // the host still ends in order
+        } catch (const NotStarted& error) { // the host still ends cleanly
             const FinishedOnExit counted;
             return run_without_thread(series, first, error);
         }

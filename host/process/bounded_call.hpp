@@ -26,7 +26,7 @@ class BoundedCall {
         std::size_t count;
         std::function<void(std::size_t i)> work;
         std::function<std::chrono::nanoseconds(std::size_t i)> timeout;
-        /// Call i still runs. Returns whether the series goes on. In the calling thread.
+        /// Call i still runs. Returns whether the series continues. In the calling thread.
         std::function<bool(std::size_t i)> on_timeout;
         std::function<void(std::size_t i, std::chrono::seconds time)> on_slow{};
         WithoutThread without_thread = WithoutThread::no_limit;

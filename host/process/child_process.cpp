@@ -227,8 +227,8 @@ const std::optional<ExitStatus>& ChildProcess::kill() {
 }
 
 bool ChildProcess::wait_for_group(std::chrono::milliseconds timeout) const {
-    // The members of the group are not children of this process, so the only way to wait for them is to look at their
-    // number.
+    // The members of the group are not children of this process, so this process can wait for them only by checking
+    // their number.
     const auto deadline = Clock::now() + timeout;
     while (group_ > 0 && ::kill(-group_, 0) == 0) {
         if (Clock::now() >= deadline) return false;

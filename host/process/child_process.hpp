@@ -39,7 +39,7 @@ struct ChildOptions {
 class ChildProcess {
   public:
     /// Starts command[0] (looked up on PATH if it has no slash) in a new process group, with no signal blocked or ignored.
-    /// A terminal's Ctrl-C reaches only this process, which then ends the child in order. Throws a std::system_error that
+    /// A terminal's Ctrl-C reaches only this process, which then ends the child cleanly. Throws a std::system_error that
     /// names the program if it cannot be started.
     explicit ChildProcess(const std::vector<std::string>& command, const ChildOptions& options = {});
     /// Takes over a child that the caller has forked. The child stays in this process's group, and signals go only to the

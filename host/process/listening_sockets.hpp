@@ -7,7 +7,7 @@
 namespace tandem::process {
 
 struct ListeningSocket {
-    std::string address; ///< ADDRESS:PORT in hexadecimal digits, as the table has it
+    std::string address; ///< ADDRESS:PORT in hexadecimal digits, as in the table
     std::string inode;
 };
 

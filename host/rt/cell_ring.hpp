@@ -151,7 +151,7 @@ class BasicCellRing {
     static std::uint32_t index(std::uint64_t word) {
         return static_cast<std::uint32_t>(word & (unread_bit - 1));
     }
-    /// Returns how far the position of a word, of which the word has 43 bits, lies behind `position`.
+    /// Returns how far the position in a word, which has 43 bits of it, is behind `position`.
     static std::int64_t distance(std::uint64_t word, std::uint64_t position) {
         return static_cast<std::int64_t>((word & ~(2 * unread_bit - 1)) - (position << position_shift)) >>
                position_shift;

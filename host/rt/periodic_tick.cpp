@@ -43,7 +43,7 @@ std::int64_t monotonic_ns() noexcept {
 }
 
 std::int64_t next_on_grid(std::int64_t now, std::int64_t period, std::int64_t phase) noexcept {
-    // The outer modulo makes the remainder positive when `now` lies before the phase.
+    // The outer modulo makes the remainder positive when `now` is before the phase.
     const std::int64_t origin = grid_origin.count() + phase,
                        into_period = ((now - origin) % period + period) % period;
     return now - into_period + period;

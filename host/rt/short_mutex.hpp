@@ -91,7 +91,7 @@ class ShortMutex {
         nobody_yet}; ///< changed with the lock held the usual way, like all members below
     std::atomic<int> state_{unlocked};
     std::atomic<bool> asked_{false}; ///< another thread holds the mutex, or waits for the owner to leave
-    std::uint8_t in_a_row_ = 0;      ///< how often the same thread has taken the mutex in a row
+    std::uint8_t in_a_row_ = 0;      ///< how often in succession the same thread has taken the mutex
     std::uint8_t changes_ = 0;       ///< how often the thread has changed; with an owner: visits of others
     std::uint64_t last_or_since_ms_ = 0; ///< without an owner: the last thread; else since when, in ms
 };

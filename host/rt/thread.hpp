@@ -27,7 +27,7 @@ std::vector<std::string> configure_this_thread(const ThreadOptions& options);
 std::optional<std::string> pin_this_thread(const std::string& who, int cpu);
 std::optional<std::string> pin_this_thread(const std::string& who, const std::vector<int>& cpus);
 
-/// Locks the present and future memory of the process (mlockall), so that no tick waits for a page. [any-thread]
+/// Locks the current and future memory of the process (mlockall), so that no tick waits for a page. [any-thread]
 std::optional<std::string> lock_memory();
 
 /// Keeps all processors out of deep idle states until the process ends: waking up from one takes tens of us.

@@ -24,8 +24,8 @@ struct alignas(64) TickSlot {
     std::uint64_t period_ns;                   ///< 0: the slot is free; written last when the slot is taken
     std::uint64_t ticks, overruns, skipped;
     std::int64_t lateness_ns_last, lateness_ns_max, execution_ns_max;
-    /// The time on CLOCK_MONOTONIC at which the next tick is due. If it is long past, the thread hangs in a callback or
-    /// gets no processor. 0: no tick is due, as before the first tick, while no component is active, and in lock-step.
+    /// The time on CLOCK_MONOTONIC at which the next tick is due. If it is in the distant past, the thread hangs in a callback
+    /// or gets no processor. 0: no tick is due, as before the first tick, while no component is active, and in lock-step.
     std::int64_t due_ns;
     // Until here, in one cache line, what each tick writes that no other process can see.
     char name[80]; ///< the owner of the ticks; NUL-terminated

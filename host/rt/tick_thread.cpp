@@ -16,7 +16,7 @@ constexpr std::int64_t ms = 1'000'000;
 // A cycle that takes longer than this part of the period, or than this time, delays others too much.
 constexpr std::int64_t share_part = 4, longest_share = ms;
 constexpr int slow_cycles_in_a_row = 3;
-// Each member notes the lines of its cycle anew after so many rounds.
+// Each member records the cache lines of its cycle again after this number of rounds.
 constexpr std::size_t rounds_per_note = 64;
 // A cycle hangs if it takes longer than the period, within these limits.
 constexpr std::int64_t shortest_hang = 20 * ms, longest_hang = 100 * ms;
@@ -146,7 +146,7 @@ void TickThread::run_cycle(Lock& lock, const std::shared_ptr<SharedTick>& tick, 
     lock.unlock();
     if (notes_lines) {
         note_lines(*tick);
-        now = monotonic_ns(); // the rehearsal is no part of the cycle
+        now = monotonic_ns(); // the rehearsal is not part of the cycle
     }
     const std::int64_t began = now;
     const auto after = tick->work_.cycle({planned, began, tick->overran_, tick->took_});

@@ -31,10 +31,10 @@ struct TickThread : std::enable_shared_from_this<TickThread> {
     std::mutex mutex;
     std::condition_variable changed;
     std::vector<std::shared_ptr<SharedTick>> members;
-    std::size_t next = 0;          // the member whose turn is next in the present round
+    std::size_t next = 0;          // the member whose turn is next in the current round
     SharedTick* running = nullptr; // the member whose cycle runs
     std::int64_t running_since = 0, looked_at = 0;
-    bool has_woken = false; // a resting member is to run at once
+    bool has_woken = false; // a resting member must run at once
     std::thread thread;     // none if leave() joins it
     std::thread::id id;
 

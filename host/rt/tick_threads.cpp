@@ -74,7 +74,7 @@ void TickThreads::apply_change(const std::shared_ptr<SharedTick>& tick) {
             add(tick, *options);
         } catch (const process::NotStarted& error) {
             tick->thread_ = former;
-            tick->work_.log(tick->work_.name + " keeps its former period: " + error.what());
+            tick->work_.log(tick->work_.name + " keeps its previous period: " + error.what());
             return;
         }
         remove(*tick, former);

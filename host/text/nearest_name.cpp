@@ -42,7 +42,7 @@ std::string nearest_name(const std::string& name, const std::vector<std::string>
 }
 
 std::string did_you_mean(const std::string& name, const std::vector<std::string>& names) {
-    constexpr std::size_t max_compared = 100; // a longer name is no typing error
+    constexpr std::size_t max_compared = 100; // a longer name is not a typing error
     if (name.size() > max_compared) return "";
     const std::string nearest = nearest_name(name, names);
     // One letter in three, at least two: GriiperAPI for GripperAPI, sped for speed.

@@ -36,7 +36,7 @@ std::string quote_cmake(const std::string& text) {
 }
 
 // Octal numbers stand for the characters that mean something in double quotes: gnuplot runs `commands` there. Single quotes
-// are no alternative, as gnuplot 5.4 reads '' at the beginning of such a string as its end.
+// are not an alternative, because gnuplot 5.4 reads '' at the beginning of such a string as its end.
 std::string quote_gnuplot(const std::string& text) {
     std::string out;
     for (const char c : printable_line(text)) switch (c) {

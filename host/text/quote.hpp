@@ -6,7 +6,7 @@
 
 namespace tandem::text {
 
-/// Returns one word of a POSIX shell. Leaves a word without special characters as it is.
+/// Returns one word of a POSIX shell. Leaves a word without special characters unchanged.
 std::string quote_shell(const std::string& word);
 
 /// Returns one argument of CMake's language, in which CMake expands nothing. List separators and generator

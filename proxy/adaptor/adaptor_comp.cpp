@@ -314,7 +314,7 @@ void AdaptorComp::activate_for_new_peer() {
         if (activated_connection_ == link_->connections()) return;
         if (attempt == 0) log::info("{}: link '{}' is up again", getId(), settings_.link);
         const auto status = activate_on_connection();
-        // A peer that has gone again is no failure, even if the link has not noticed yet: the next peer gets the same
+        // A peer that has left again is not a failure, even if the link has not noticed yet: the next peer gets the same
         // attempts.
         if (status == CallStatus::ok || peer_has_gone(status)) return;
     }

@@ -34,14 +34,14 @@ struct Settings {
     std::map<std::string, std::string>
         policies;        ///< `keep_last`, `wait_ms`, `deadline_ms`, and `.PORT` for one port
     bool strict = false; ///< `strict`: a refused connection is an error when the component is started
-    std::string group;   ///< `group`: may join the link besides the owner; empty: only the owner
+    std::string group;   ///< `group`: may join the link, like the owner; empty: only the owner
 
     /// Returns the conversion requested for the port; empty if there is none.
     std::string conversion(const std::string& port) const {
         const auto at = conversions.find(port);
         return at == conversions.end() ? "" : at->second;
     }
-    /// Returns the port with the operations configured for it, if the peer has told none.
+    /// Returns the port with the operations configured for it, if the peer has sent none.
     link::Port with_operations(link::Port port) const {
         const auto at = operations.find(port.name);
         if (at != operations.end() && !link::is_data_port(port.kind) && port.operations.empty())

@@ -28,7 +28,7 @@ namespace {
 
 // Each component that the other process shares takes memory and a name in this process.
 constexpr std::size_t max_shown_components = 256;
-// The end of the link ends the call that asks for it, unless the reply is on its way.
+// The end of the link ends the call that requested it, unless the reply has already been sent.
 constexpr std::chrono::milliseconds time_for_reply{100};
 
 /// Otherwise the ORB registers the worker again for each call, which takes as long as the call.

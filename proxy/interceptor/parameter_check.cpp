@@ -21,7 +21,8 @@ constexpr std::string_view own_parameters[] = {"link",     "rtc",       "manage"
                                                "ring_kib", "large_kib", "segment_mib", "group",
                                                "strict",   "keep_last", "wait_ms",     "deadline_ms"};
 
-/// The profile of an RTC, and what its manager reads of every RTC; a name may also be the first part of others.
+/// Keys of an RTC's profile, and keys that its manager reads for every RTC. A name also permits keys that begin
+/// with it and a dot.
 constexpr std::string_view of_manager[] = {"implementation_id",
                                            "type_name",
                                            "description",

@@ -34,7 +34,7 @@ void RemoteRtcs::find(const std::vector<std::string>& names, SharedRtcs& shared)
         }
         if (reason.empty()) continue;
         if (settings_.strict) throw std::runtime_error(reason);
-        log::warn("{}: {}; trying again until it is there", owner_, reason);
+        log::warn("{}: {}; trying again until it exists", owner_, reason);
     }
 }
 

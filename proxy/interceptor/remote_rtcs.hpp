@@ -19,7 +19,7 @@ class RemoteRtcs {
   public:
     /// Called in the RTC's own thread; see RemoteRtc::Events.
     struct Events {
-        /// The RTC is there, or has other ports than before: call resume() when they are connected.
+        /// The RTC has appeared, or has other ports than before: call resume() when they are connected.
         std::function<void(const std::string& rtc, const std::vector<RtcPort>& ports)> ports_changed;
         std::function<void(const std::string& rtc)> gone;
         std::function<void(const std::string& rtc, const std::string& what)> failed;
@@ -28,9 +28,9 @@ class RemoteRtcs {
     /// `owner` begins log lines. The settings must outlive this object.
     RemoteRtcs(std::string owner, const Settings& settings, Events events);
 
-    /// Looks once for those of `names` that are of other processes, and adds what is there to `shared`. `names` are those of
-    /// the parameter `rtc`. Throws std::runtime_error if two RTCs have one name, or if one is not there and the user is
-    /// strict.
+    /// Looks once for the RTCs in `names` that are in other processes, and adds those that exist to `shared`. `names` are
+    /// those of the parameter `rtc`. Throws std::runtime_error if two RTCs have one name, or if one does not exist and
+    /// `strict` is set.
     void find(const std::vector<std::string>& names, SharedRtcs& shared);
     /// Hands the RTC with this name in the parameter `rtc` over to its new owner, who destroys it before this object.
     std::unique_ptr<RemoteRtc> take(const std::string& name);

@@ -64,7 +64,7 @@ std::vector<link::ServiceOperation> events_of(const RTC::PortProfile& profile) {
     return events;
 }
 
-/// The port's buffer: its settings `buffer.*`, as rtc.conf has them, and where there are none those of OpenRTM's RingBuffer.
+/// The port's buffer: its settings `buffer.*` from rtc.conf, or the defaults of OpenRTM's RingBuffer.
 link::QueuePolicy queue_of(const RTC::PortProfile& profile) {
     link::QueuePolicy queue;
     queue.length = 8;

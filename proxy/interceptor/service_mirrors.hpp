@@ -20,8 +20,8 @@
 namespace tandem::interceptor {
 
 /// The mirrors of the service ports of the RTCs that the link shares, as ports of InterceptorComp, and of their
-/// interfaces. The mirror of an interface is kept when the interface is removed, for calls under way, and for the case
-/// that the interface comes back. [one thread at a time] unless stated otherwise.
+/// interfaces. The mirror of an interface is kept when the interface is removed, for calls under way, and in case the
+/// interface comes back. [one thread at a time] unless stated otherwise.
 class ServiceMirrors {
   public:
     /// `owner` has the mirrors. The references must outlive this object.

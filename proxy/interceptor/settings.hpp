@@ -21,7 +21,7 @@ struct Settings {
     std::size_t segment_bytes =
         std::size_t{4} * 1024 * 1024; ///< `segment_mib`: memory of each side, without chunks
     bool strict = false;              ///< `strict`: a port that cannot be shared is an error at set-up
-    std::string group;                ///< `group`: may join the link besides the owner; empty: only the owner
+    std::string group;                ///< `group`: may join the link, like the owner; empty: only the owner
 };
 
 /// Throws std::runtime_error, one line, if `link` is missing or another parameter has an invalid value.

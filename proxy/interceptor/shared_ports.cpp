@@ -14,7 +14,7 @@
 namespace tandem::interceptor {
 namespace {
 
-/// Returns whether the shared port is the RTC's port `name`. The RTC's name may stand in front of the shared port's name.
+/// Returns whether the shared port is the RTC's port `name`. The RTC's name may precede the shared port's name.
 bool is_named(const link::Port& shared, const std::string& component, const std::string& name) {
     return shared.component == component && (shared.name == name || shared.name == component + "." + name);
 }
@@ -118,7 +118,7 @@ void SharedPorts::follow(const std::string& component, std::vector<RtcPort> port
             }
         }
         share_new(std::move(new_ports));
-    } catch (const std::runtime_error& error) { // it cannot be connected, and the user is strict
+    } catch (const std::runtime_error& error) { // it cannot be connected, and `strict` is set
         log::error("{}: {}", owner_.getInstanceName(), error.what());
     }
     link_.set_ports(table_);
@@ -163,7 +163,7 @@ void SharedPorts::port_added(RTC::RTObject_impl& rtc, const std::string& name) {
                 new_ports.push_back(std::move(port));
         }
         share_new(std::move(new_ports));
-    } catch (const std::runtime_error& error) { // it cannot be connected, and the user is strict
+    } catch (const std::runtime_error& error) { // it cannot be connected, and `strict` is set
         log::error("{}: {}", owner_.getInstanceName(), error.what());
     } catch (const CORBA::Exception& error) { // the RTC is being deleted
         log::error("{}: port '{}' of {} cannot be asked: {}", owner_.getInstanceName(), name, component,
@@ -185,7 +185,7 @@ void SharedPorts::share_again(RtcPort& shared, RtcPort port) {
     }
     connect(port);
     if (!table_.find(name)) table_.ports.push_back(port.entry);
-    log::info("{}: port '{}' of {} is there again", owner_.getInstanceName(), name, port.entry.component);
+    log::info("{}: port '{}' of {} is available again", owner_.getInstanceName(), name, port.entry.component);
 }
 
 /// Gives a port that was added again with another type another mirror, or the mirror that it had with this type before.

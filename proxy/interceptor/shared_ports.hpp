@@ -26,11 +26,11 @@ class SharedPorts {
                 const RtcActivation& activation, std::function<void()> listened_changed);
 
     /// Makes mirrors of the ports and connects them. `shared.table` is the link's port table. Throws std::runtime_error if
-    /// a port cannot be used and the user is strict. [before Link::open()]
+    /// a port cannot be used and `strict` is set. [before Link::open()]
     void share(const SharedRtcs& shared);
     /// Follows the ports that an RTC of this process adds and removes from now on. [before Link::open()]
     void watch(RTC::RTObject_impl& rtc);
-    /// Follows an RTC of another process. `ports`: its present ports; empty if it has gone. [task-thread]
+    /// Follows an RTC of another process. `ports`: its current ports; empty if it has gone. [task-thread]
     void follow(const std::string& component, std::vector<RtcPort> ports);
 
   private:

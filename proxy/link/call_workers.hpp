@@ -47,7 +47,7 @@ class CallWorkers {
     const std::function<void()> wake_supervisor_;
     std::atomic<unsigned> idle_{0};         ///< workers that execute no call
     std::atomic<std::size_t> count_{0};     ///< of threads_
-    std::atomic<Clock::time_point> needed_; ///< when at most one worker was idle, if there were more than two
+    std::atomic<Clock::time_point> needed_; ///< last time with at most one idle worker among more than two
     std::mutex mutex_;                      ///< guards the members below
     std::list<process::SizedThread> threads_, ended_;
     bool stopping_ = false;

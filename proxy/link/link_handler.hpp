@@ -21,7 +21,7 @@ class LinkHandler {
     /// peer. [supervisor-thread]
     virtual std::string check_peer_ports(PortTable& peer) = 0;
 
-    /// Is called when data start (`up`) or stop to flow. Must not wait for the peer: while this function runs, no
+    /// Is called when data starts (`up`) or stops flowing. Must not wait for the peer: while this function runs, no
     /// thread watches whether the peer is alive. [supervisor-thread]
     virtual void link_state_changed(bool up) = 0;
 

@@ -144,7 +144,7 @@ void PeerSupervisor::sleep_until_event(std::chrono::nanoseconds bound) {
 std::string PeerSupervisor::end_reason(const LinkSession& session) const {
     std::string reason = session.end_reason();
     if (reason.empty() && channels_.has_corrupt_ring())
-        reason = "a ring of " + session.segment()->path() + " is damaged; the link starts afresh";
+        reason = "a ring of " + session.segment()->path() + " is damaged; the link is set up again";
     return reason;
 }
 

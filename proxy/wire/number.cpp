@@ -61,7 +61,7 @@ bool is_fixed(std::string_view text, const Type& fixed) {
 }
 
 std::string why_not_fixed(std::string_view text, const Type& fixed) {
-    return fmt::format("is '{}': expected a decimal number of at most {} digits, {} behind the point",
+    return fmt::format("is '{}': expected a decimal number of at most {} digits, {} after the point",
                        text.substr(0, 40), fixed.count, fixed.scale);
 }
 

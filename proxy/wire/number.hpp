@@ -21,7 +21,7 @@ bool put_number(Kind kind, long double value, CdrWriter& out);
 
 /// Returns whether the text is a decimal number that a fixed of this type holds without rounding.
 bool is_fixed(std::string_view text, const Type& fixed);
-/// Returns the text for one that is not: `is '1.234': expected a decimal number of at most 3 digits, 2 behind the point`.
+/// Returns the text for one that is not: `is '1.234': expected a decimal number of at most 3 digits, 2 after the point`.
 std::string why_not_fixed(std::string_view text, const Type& fixed);
 
 /// Reads the value of a discriminator: an integer, a char, a boolean or an enumeration.

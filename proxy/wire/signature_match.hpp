@@ -20,8 +20,8 @@ enum class SignatureMatch {
 /// not compared: see needs_check().
 bool is_assignable(const Type& from, const Type& to);
 
-/// Returns whether bytes of `from`, which fits, may contain values that `to` cannot have: beyond a bound, no enumerator, a
-/// text that is no fixed, a discriminator without a case.
+/// Returns whether bytes of `from`, which fits, may contain values that `to` cannot have: beyond a bound, not an
+/// enumerator, a text that is not a fixed, a discriminator without a case.
 bool needs_check(const Type& from, const Type& to);
 
 /// Compares the signatures of the sent and the received message by is_assignable(). Throws SignatureError if one of them

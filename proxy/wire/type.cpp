@@ -35,7 +35,7 @@ class Parser {
     Type parse_type(int depth) {
         if (depth > max_depth) fail("nesting is deeper than 32");
         if (++parts_ > max_parts) fail("it has more than 65536 parts");
-        if (position_ == text_.size()) fail("it ends, expected a type");
+        if (position_ == text_.size()) fail("it ends where a type is expected");
         const char code = text_[position_++];
         switch (code) {
         case 'a': {
@@ -109,13 +109,13 @@ class Parser {
             if (!skip_char('*')) do
                     labels.push_back(parse_label());
                 while (skip_char(','));
-            if (!skip_char('=')) fail("expected '=' behind the labels of a union's case");
+            if (!skip_char('=')) fail("expected '=' after the labels of a union's case");
             Type member = parse_member(depth + 1);
             member.labels = std::move(labels);
             add_member(type, std::move(member));
         }
         if (!skip_char('>')) fail("'>' is missing");
-        if (type.children.size() == 1) fail("a union has a case at least");
+        if (type.children.size() == 1) fail("a union must have at least one case");
         return type;
     }
 

@@ -101,7 +101,7 @@ Type parse_any_signature(std::string_view signature);
 std::string label_text(Kind discriminator, std::int64_t label);
 
 /// Returns the bytes of a primitive in CDR, which is also its alignment (except for long double: 8); 0 for everything else.
-/// A wide character is no primitive: its length precedes it.
+/// A wide character is not a primitive: its length precedes it.
 std::size_t primitive_size(Kind kind);
 std::size_t primitive_alignment(Kind kind);
 

@@ -24,10 +24,10 @@ std::string first_unsupported(const Type& type);
 /// Returns whether `to` has an equal value for each value of `from`: float in double, int16 in int32 and in double.
 bool can_widen(Kind from, Kind to);
 
-/// Returns the first member in which two messages differ that do not fit, with what to ask for: `field 'velocity.va' is
-/// float here, double there: ask for widen`. The member is named, or numbered if neither side has names. `sent` tells
-/// whether `here` is sent. For messages that fit: the first member at another place, if both sides have the same names.
-/// Empty if there is none.
+/// Returns the first member in which two messages differ that do not fit, with what to ask for:
+/// `field 'velocity.va' is float here, double there: ask for widen`. The member is named, or numbered if neither side
+/// has names. `sent`: whether `here` is sent. For messages that fit: the first member at another place, if both sides
+/// have the same names. Empty if there is none.
 std::string first_difference(const Type& here, const Type& there, bool sent);
 
 } // namespace tandem::wire

@@ -95,8 +95,8 @@ struct NumberVisitor {
 
 } // namespace detail
 
-/// Calls `use` with a value of the C++ type for numbers of this kind, and returns its result. For kinds that are no numbers
-/// (see is_number()), returns `otherwise`.
+/// Calls `use` with a value of the C++ type for numbers of this kind, and returns its result. For kinds that are not
+/// numbers (see is_number()), returns `otherwise`.
 template <class Result, class Use>
 Result visit_number(Kind kind, const Result& otherwise, Use use) {
     return visit(kind, detail::NumberVisitor<Use, Result>{use, otherwise});

@@ -15,7 +15,7 @@ namespace tandem::wire {
 bool put_wide_string(CdrWriter& out, std::wstring_view text);
 bool put_wide_character(CdrWriter& out, wchar_t character);
 
-/// Replaces `text`. If the bytes are no wide string, `text` becomes empty and in.ok() false.
+/// Replaces `text`. If the bytes are not a wide string, `text` becomes empty and in.ok() false.
 void get_wide_string(CdrReader& in, std::wstring& text);
 wchar_t get_wide_character(CdrReader& in);
 

@@ -21,8 +21,8 @@ constexpr std::uint64_t check_lock_every_ns = 5'000'000, check_process_every_ns 
 // a slot may not have seen yet that another one waits.
 constexpr std::uint64_t look_for_slot_every_ns = 1'000'000;
 
-/// Looks, at these intervals, whether the peer of a waiting call has died. Most replies come before the first look. The
-/// process is looked for rarely, because that takes ten system calls and finds only a peer whose lock a child of clone() holds.
+/// Looks, at these intervals, whether the peer of a waiting call has died. Most replies come before the first look. Looks for
+/// the process only rarely: that takes ten system calls, and finds only a peer whose lock a child of clone() holds.
 class PeerChecks {
   public:
     explicit PeerChecks(const Mapping& mapping) : mapping_(mapping) {}

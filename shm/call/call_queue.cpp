@@ -78,8 +78,8 @@ std::uint64_t call_queue_size(const CallQueueOptions& options) {
 CallQueueMemory call_queue_memory(const std::string& name, const CallQueueOptions& options) {
     const std::uint64_t bytes = call_queue_size(options);
     if (bytes == 0)
-        throw Error("call queue '" + name + "': 1 to " + std::to_string(max_slots) +
-                    " slots and max_bytes up to 64 MiB expected");
+        throw Error("call queue '" + name + "': expected 1 to " + std::to_string(max_slots) +
+                    " slots, and max_bytes up to 64 MiB");
     return {bytes, without_overflow(options.slots)};
 }
 

@@ -36,7 +36,7 @@ struct BasicCallView {
     typename A::Cell* overflow = nullptr; ///< slot_count buffers
     std::uint32_t slot_count = 0;
     std::uint64_t max_bytes = 0;
-    std::uint64_t short_bytes = 0;    ///< longer payloads go by loan
+    std::uint64_t short_bytes = 0;    ///< longer payloads are passed by loan
     std::uint64_t overflow_cells = 0; ///< of each buffer
     /// In a sparse segment: gives a slot's buffer memory. Returns false if /dev/shm is full.
     bool (*allocate_overflow)(const BasicCallView&, std::uint32_t slot) = nullptr;
@@ -71,7 +71,7 @@ struct BasicCallView {
     }
 
     // All four copy word by word with atomic accesses, because a hostile peer may write while this side reads. The first
-    // and the third leave out what goes by loan, the others are for short payloads.
+    // and the third omit what is passed by loan; the others are for short payloads.
     void copy_arguments_in(std::uint32_t slot, const void* from, std::size_t bytes) const {
         copy_to_slot(slots[slot].request.arguments, arguments_in_first_line, argument_room, slot, from,
                      bytes);

@@ -29,7 +29,7 @@ enum class CallActivity : bool { none, possible };
 /// WaitOptions::keep_history of the callers, each slot stays unchanged until all others were used.
 ///
 /// How a copy is known to be whole: while a call is open, nobody else writes its arguments. A later copy counts if the slot
-/// is still unchanged at the next look, because the next caller writes its arguments before it announces its call. [one
+/// is still unchanged at the next poll, because the next caller writes its arguments before it announces its call. [one
 /// thread]
 class CallFollower {
   public:

@@ -100,7 +100,7 @@ void read_header_fields(const ReadOnlySnapshot& file, ObservedSegment& view) {
         offset[1] == offset[0] + bytes[0] && bytes[1] == total - offset[1] &&
         word(offsetof(SegmentHeader, generation)) == view.generation;
     if (!sound) return set_unreadable(view, Readability::damaged, "its header contradicts itself");
-    view.file_bytes = total; // without the loans of calls, which lie behind
+    view.file_bytes = total; // without the loans of calls, which follow
 }
 
 /// Returns whether a signal or a debugger has stopped the process, according to proc(5).

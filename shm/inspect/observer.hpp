@@ -29,7 +29,7 @@ struct ObservedSide {
     std::uint32_t pid_elsewhere = 0;
     std::uint64_t joined_ns = 0; ///< CLOCK_MONOTONIC, see now_ns()
     bool published = false;
-    bool left = false; ///< it has left in order; a dead side that has not was killed or has crashed
+    bool left = false; ///< it has left cleanly; a dead side that has not was killed or has crashed
 };
 
 /// A segment as described by its file and its header.
@@ -122,7 +122,7 @@ class ReadOnlySnapshot;
 /// Opens the file of a readable segment again. Returns nullptr if its name refers to another file by now.
 std::shared_ptr<const ReadOnlySnapshot> open_observed(const ObservedSegment& segment);
 
-/// Returns whether a side of an opened segment has left in order. Also works after the file was removed.
+/// Returns whether a side of an opened segment has left cleanly. Also works after the file was removed.
 bool has_left(const ReadOnlySnapshot& file, Side side);
 
 /// Adds the objects of a readable segment. Used by observe().

@@ -47,7 +47,7 @@ class Unclaimed {
     std::uint64_t bytes_;
 };
 
-/// Reads a ring. `damage` of the result tells what is wrong with it.
+/// Reads a ring. `damage` of the result says what is wrong with it.
 ObservedRing read_ring(const ReadOnlySnapshot& file, ObservedObject object, Unclaimed& unclaimed) {
     ObservedRing ring{std::move(object)};
     const std::uint64_t base = ring.file_offset;
@@ -135,7 +135,7 @@ bool copy_times(const ReadOnlySnapshot& file, std::uint64_t base, ObservedCallQu
            copy_histogram(file, base + offsetof(layout::CallTimes, service), queue.service);
 }
 
-/// Reads a call queue. `damage` of the result tells what is wrong with it.
+/// Reads a call queue. `damage` of the result says what is wrong with it.
 ObservedCallQueue read_call_queue(const ReadOnlySnapshot& file, ObservedObject object, Unclaimed& unclaimed) {
     ObservedCallQueue queue{std::move(object)};
     const std::uint64_t base = queue.file_offset;
@@ -168,7 +168,7 @@ ObservedCallQueue read_call_queue(const ReadOnlySnapshot& file, ObservedObject o
     return queue;
 }
 
-/// Reads a blob. `damage` of the result tells what is wrong with it.
+/// Reads a blob. `damage` of the result says what is wrong with it.
 ObservedBlob read_blob(const ReadOnlySnapshot& file, ObservedObject object, Unclaimed& unclaimed) {
     constexpr std::uint64_t max_content = std::uint64_t{1} << 20;
     ObservedBlob blob{std::move(object), {}};

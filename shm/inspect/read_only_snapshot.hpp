@@ -34,7 +34,7 @@ class ReadOnlySnapshot {
         if (offset > static_cast<std::uint64_t>(INT64_MAX) - to.size()) return false;
         const auto got =
             pread(file_.get(), static_cast<void*>(to.data()), to.size(), static_cast<off_t>(offset));
-        std::atomic_thread_fence(std::memory_order_acquire); // a system call is no barrier
+        std::atomic_thread_fence(std::memory_order_acquire); // a system call is not a barrier
         return got == static_cast<ssize_t>(to.size());
     }
 

@@ -29,7 +29,7 @@ struct CopyMemory {
 /// woken or locked. Messages that the writer has overwritten before they were copied count as lost.
 ///
 /// layout.hpp explains how a copy is known to be whole: the writer announces by write_limit where it may store next, and by
-/// filled_for which chunk it fills, before it does so. A copy counts if these words, read after the copy, still lie ahead
+/// filled_for which chunk it fills, before it does so. A copy is valid if these words, read after the copy, are still ahead
 /// of it. [one thread]
 class RingFollower {
   public:

@@ -17,7 +17,7 @@ class Snapshot {
     /// Copies the struct out of mapped memory, which is 8-aligned.
     explicit Snapshot(const void* shared) { copy_from_shared(bytes_, shared, Bytes); }
 
-    /// Returns a field; 0 if it does not lie within the copy.
+    /// Returns a field; 0 if it is not within the copy.
     template <class Field>
     Field get(std::size_t offset) const {
         Field value{};

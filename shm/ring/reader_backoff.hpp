@@ -7,7 +7,7 @@ namespace tandem::shm {
 
 /// [one thread] Keeps a fast reader from slowing down a fast writer. A reader that has caught up takes away the cache line
 /// that the writer is still writing to, and both run at the speed of these transfers. Therefore, after a run of records
-/// with few empty looks between them, the first empty look pauses for about 0.5 us, and the writer gets ahead. If the
+/// with few empty polls between them, the first empty poll pauses for about 0.5 us, and the writer gets ahead. If the
 /// writer has written at most one record by then, it waits for something else, for example an answer of this thread, and
 /// the pause was only a delay: the next pause comes after a run twice as long.
 template <class A>

@@ -35,8 +35,8 @@ ParseResult parse_record(const RingView<A>& ring, std::uint64_t position, Parsed
 }
 
 /// Parses the newest record from `tail` on. The shared word `newest` may lag behind by one record for a moment, or forever
-/// if the writer was killed between two stores; hence the loop at the end. A reader that is up to date never reads this
-/// word: it polls only the line where the next record will appear.
+/// if the writer was killed between two stores; the loop at the end is for this case. A reader that is up to date never
+/// reads this word: it polls only the line where the next record will appear.
 template <class A>
 ParseResult parse_newest_record(const RingView<A>& ring, std::uint64_t tail, ParsedRecord& parsed) {
     const ParseResult oldest = parse_record(ring, tail, parsed);

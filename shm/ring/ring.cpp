@@ -27,7 +27,7 @@ struct Sizes : RingSizes {
     std::uint64_t chunk_words_offset() const { return sizeof(layout::RingHeader) + capacity; }
     RingMemory memory() const {
         const std::uint64_t without_chunks = chunk_words_offset() + chunks * sizeof(layout::ChunkWords);
-        // One page more than the chunks need, so that they can begin at a page wherever the ring lies.
+        // One page more than the chunks need, so that they can begin at a page at any position of the ring.
         const std::uint64_t chunk_pages = chunks == 0 ? 0 : chunks * chunk_bytes + layout::page;
         // Until there is a record, readers read only the first line.
         return {without_chunks + chunk_pages, without_chunks, sizeof(layout::RingHeader) + layout::line};

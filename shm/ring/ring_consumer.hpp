@@ -169,8 +169,8 @@ inline const Record* RingConsumer<A>::read() {
     // In scratch_ like the last record, otherwise expected_ would be not_expected: see read_slowly().
     record_.bytes = {record_.bytes.data(), length};
     record_.stamp_ns = stamp;
-    // Comes after the instruction that waits for all earlier loads: the load of this line, which usually shows that the
-    // record is the newest, delays nothing there.
+    // Comes after the instruction that waits for all earlier loads, so the load of this line delays nothing. It usually
+    // shows that the record is the newest.
     if (depth_ != 0 && A::load(*ring_.cell(position + size), std::memory_order_relaxed) != 0) [[unlikely]]
         return count_or_skip(length);
     return count(record_.sequence + 1, length, shared);
@@ -201,7 +201,7 @@ const Record* RingConsumer<A>::read_slowly(std::uint64_t depth, std::uint64_t wo
     return record;
 }
 
-/// Finds the oldest record of the `depth` newest. `is_oldest` tells whether it is the oldest of all.
+/// Finds the oldest record of the `depth` newest. `is_oldest`: whether it is the oldest of all.
 template <class A>
 ParseResult RingConsumer<A>::parse(std::uint64_t tail, std::uint64_t depth, ParsedRecord& parsed,
                                    bool& is_oldest) const {
@@ -285,8 +285,8 @@ inline bool RingConsumer<A>::move_tail(std::uint64_t& from, std::uint64_t to,
 }
 
 /// Moves the tail from its current position to the end of `parsed`. The copy made before is whole if the tail has not
-/// passed the record's start. The commit word at the tail contains the oldest sequence number and thus gives the number of
-/// skipped records (padding has the number of the record behind it).
+/// passed the record's start. The commit word at the tail contains the oldest sequence number, from which follows the
+/// number of skipped records (padding has the number of the record behind it).
 template <class A>
 bool RingConsumer<A>::take(const ParsedRecord& parsed, std::uint64_t tail, std::uint64_t& skipped) {
     for (int attempt = 0; attempt < max_attempts && tail <= parsed.start; ++attempt) {

@@ -62,7 +62,7 @@ class alignas(layout::line_pair) RingProducer {
     bool refuse();
 
     /// Publishes a message of up to max_record bytes if it fits after the last one, without reserve() and commit().
-    /// Returns false and changes nothing if it does not fit, if that is not known yet, or if its age is to be measured.
+    /// Returns false and changes nothing if it does not fit, if that is not known yet, or if its age must be measured.
     /// `readable_behind`: up to 48 bytes behind `bytes` are readable and may be copied, too.
     bool write_behind_last(const void* bytes, std::size_t count, std::uint64_t stamp, bool readable_behind);
     /// Publishes like write_behind_last(), but a message of one word and `count` bytes at another address.
@@ -111,7 +111,7 @@ class alignas(layout::line_pair) RingProducer {
 
     RingView<A> ring_;
     std::uint64_t head_, tail_; // tail as this end last saw it
-    // Up to here, records need neither padding nor a look at the tail. 0: unknown, corrupt, or the next record is sampled.
+    // Up to here, records need neither padding nor a check of the tail. 0: unknown, corrupt, or the next record is sampled.
     std::uint64_t room_end_ = 0;
     std::uint64_t cleared_at_; // the position at which 0 was stored last
     std::uint64_t sequence_;   // of the newest record
@@ -259,8 +259,8 @@ inline void RingProducer<A>::clear_commit_word(std::uint64_t position) {
     cleared_at_ = position;
 }
 
-/// Clears the commit word behind the next record in advance, assuming that the next record is as long as the last one. Thus
-/// neither this store nor the transfer of its line delays the next record.
+/// Clears the commit word behind the next record in advance, assuming that the next record is as long as the last one.
+/// Neither this store nor the transfer of its line then delays the next record.
 template <class A>
 inline void RingProducer<A>::prepare_next(std::uint64_t head, std::uint64_t record) {
     if (head + record <= room_end_) [[likely]]

@@ -87,7 +87,7 @@ struct AgeSample {
     }
 };
 
-/// The payload of a record whose message lies in a chunk.
+/// The payload of a record whose message is in a chunk.
 struct ChunkReference {
     std::uint64_t chunk, bytes;
 };

@@ -83,7 +83,7 @@ class RingWriter {
     void set_waits_for_room(bool waits) {
         ring_.view.shared->waits_for_room.store(waits ? 1 : 0, std::memory_order_relaxed);
     }
-    /// Returns how many records may wait, as published by RingReader::set_room(); nothing if that is for the depth to say.
+    /// Returns how many records may wait, as published by RingReader::set_room(); nothing if the depth determines it.
     /// Call it after counters(): a record that the reader hands to its users meanwhile then counts twice rather than never.
     std::optional<std::uint64_t> published_room() const {
         std::atomic_thread_fence(std::memory_order_acquire);

@@ -8,7 +8,7 @@
 
 namespace tandem::shm {
 
-/// One object of a side: kind, name and memory, checked to lie inside that side's arena.
+/// One object of a side: kind, name and memory, checked to be inside that side's arena.
 struct ObjectInfo {
     std::string name;
     layout::ObjectKind kind;

@@ -29,7 +29,7 @@
 // All code that reads a segment assumes that the peer changes any byte at any time: sizes and offsets are copied
 // once, checked, and then only the copy is used. For the size of the file see truncation_guard.hpp.
 //
-// Atomic words lie on cache-line pairs of their own, because the hardware fetches lines in pairs.
+// Atomic words are on separate pairs of cache lines, because the hardware fetches lines in pairs.
 #pragma once
 #include "shm/os/atomics.hpp"
 #include "shm/segment/histogram.hpp"
@@ -95,11 +95,11 @@ struct DirectoryEntry {
 };
 
 struct alignas(line_pair) SideHeader {
-    Word32 taken; // 1 once the side has joined, for ever; set after its lock is held
+    Word32 taken; // 1 once the side has joined, then never reset; set after its lock is held
     Word32 pid;   // with the next three words: the process, see process_identity.hpp
     Word64 joined_ns;
     Word64 pid_namespace, time_namespace, start_ticks;
-    Word32 left; // 1 once the side has left in order, for observers; set before its lock is given back
+    Word32 left; // 1 once the side has left cleanly, for observers; set before its lock is given back
     std::byte unused0[84];
     DoorbellWords doorbell;              // of this side: the other rings it
     alignas(line_pair) Word32 published; // 0 = nothing yet, else 1 + number of valid directory entries
@@ -168,8 +168,8 @@ struct BasicRingHeader {
     Word64 received; // counters
     Word64 skipped;
     Word64 bytes_received;
-    // Of what waits the reader wants the newest so many records, and skips the others; 0 = all. Set by the reader; read by
-    // writers that hold messages back, and by observers.
+    // The reader reads at most this number of waiting records, the newest, and skips the others; 0 = all. Set by the
+    // reader; read by writers that hold messages back, and by observers.
     Word64 depth;
     // If several users share the reader: 1 more than the number of records that may wait without one user losing any; 0: see
     // depth. For writers that hold messages back.
@@ -191,11 +191,11 @@ static_assert(offsetof(RingHeader, age) == 384 && sizeof(RingHeader) == 384 + si
 
 constexpr std::size_t record_header = 16;
 
-// Chunks: behind data, the ChunkWords of all chunks, then the chunks, each at a page of the file. Who may touch a
-// chunk: the writer, until it has published a record that refers to it; then whoever takes that record off the ring
-// (the reader to read it, the writer to drop it). The reader gives the chunk back by storing the record's sequence,
-// or, having skipped that record, any later one up to the one before the record it took. Before the first byte of a
-// content is written, filled_for says for which record.
+// Chunks: behind data, the ChunkWords of all chunks, then the chunks, each at a page of the file. A chunk belongs
+// to the writer until it has published a record that refers to it. It then belongs to the side that takes that
+// record off the ring (the reader to read it, the writer to drop it). The reader gives the chunk back by storing
+// the record's sequence, or, having skipped that record, any later one up to the one before the record it took.
+// Before the first byte of a chunk is written, filled_for is set to the record's sequence.
 template <class A>
 struct BasicChunkWords {
     template <class T>
@@ -219,8 +219,8 @@ static_assert(sizeof(ChunkWords) == line_pair);
 //   reply    word (64)   results (120)
 //   work     claim (64)  progress        answered
 //
-// What is longer continues in the slot's overflow buffer. What is longer than short_call_bytes goes by loan: all of it lies
-// in the file behind total_bytes, at (2 * slot + callers) * max_loan_bytes, and is moved by pwrite() and pread(). A process
+// What is longer continues in the slot's overflow buffer. A payload longer than short_call_bytes is passed by loan: all of it
+// is in the file behind total_bytes, at (2 * slot + callers) * max_loan_bytes, and is moved by pwrite() and pread(). A process
 // therefore maps no more than before, touches no page that has no memory, and cannot be stopped by a hole that the peer has
 // made. The caller gives the memory back after the reply. A segment has at most one queue with loans for each calling side.
 //

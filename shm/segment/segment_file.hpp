@@ -22,7 +22,7 @@ void check_link_name(const std::string& link);
 
 std::string file_prefix(const std::string& link);                            ///< "tandem.<link>."
 std::string segment_path(const std::string& link, std::uint64_t generation); ///< "/dev/shm/tandem.<link>.<n>"
-/// The largest generation. Names with more digits are no segments, so that all processes see the same ones.
+/// The largest generation. Names with more digits are not segments, so that all processes see the same ones.
 constexpr std::uint64_t max_generation = 999'999'999'999'999'999;
 
 /// A name in /dev/shm that a segment could have; anyone may have given it to a file.

@@ -7,8 +7,8 @@
 namespace tandem::shm {
 
 /// [any-thread] Installs a SIGBUS handler that replaces the lost part of a segment by zeros in this process. Readers treat
-/// zeros as damage or as nothing new, and Segment::superseded() tells the user to leave. Passes any other SIGBUS to the
-/// earlier handler. Not installed by default, because signal handlers are the program's choice.
+/// zeros as damage or as nothing new, and Segment::superseded() then says that the user must leave. Passes any other
+/// SIGBUS to the earlier handler. Not installed by default, because signal handlers are the program's choice.
 void install_truncation_guard();
 
 /// Registers memory for the handler. Used by Mapping.

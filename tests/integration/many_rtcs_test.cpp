@@ -104,7 +104,7 @@ TEST_CASE("a port that an RTC removes and adds again carries data again, and a n
     CHECK(hosts.says("rtm", "port 'extra' was added to ShiftRtc0 and is shared"));
     CHECK(hosts.says("opros", "port Adaptor.number was removed: 1 of its connections end, 1 so far"));
     CHECK(hosts.says("opros", "connection Adaptor.number -> Motor.speed is made: its port was added"));
-    CHECK(hosts.says("rtm", "port 'number' of ShiftRtc0 is there again"));
+    CHECK(hosts.says("rtm", "port 'number' of ShiftRtc0 is available again"));
     CHECK(hosts.says("opros", "Motor torque 200."));
     CHECK(hosts.output("opros").find("Motor torque 120.") ==
           std::string::npos); // of a cycle without the port

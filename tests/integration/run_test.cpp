@@ -251,7 +251,7 @@ TEST_CASE("tandem run names a component that has not started beside `all hosts a
     CHECK(run.exit_code() == 0);
 }
 
-TEST_CASE("hosts end in order when tandem run is killed, although their output is no longer read") {
+TEST_CASE("hosts end cleanly when tandem run is killed, although their output is no longer read") {
     Run run;
     run.start();
     REQUIRE(run.says("all hosts are ready"));

@@ -78,7 +78,7 @@ class TwoHosts {
     int exit_code(const std::string& host);
     bool runs(const std::string& host) { return !hosts_.at(host).poll(); }
     int stop(const std::string& host);
-    /// Asks both hosts to end at the same time. Returns true if both have ended in order.
+    /// Asks both hosts to end at the same time. Returns true if both have ended cleanly.
     bool stop_both();
     void kill(const std::string& host);
     /// Kills rtm_host, waits until opros_host has noticed, and starts it again. Where the new output of `host` begins.

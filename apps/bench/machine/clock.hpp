@@ -23,7 +23,7 @@ struct Clock {
     static std::string name();
 };
 
-/// Returns the present time in ns of CLOCK_MONOTONIC_RAW.
+/// Returns the current time in ns of CLOCK_MONOTONIC_RAW.
 inline std::uint64_t raw_ns() {
     timespec now{};
     clock_gettime(CLOCK_MONOTONIC_RAW, &now);

@@ -14,7 +14,7 @@ struct Cores {
 
 /// [calling thread] Pins the thread to this core. Throws std::system_error.
 void pin_to(int core);
-/// [any thread] Does the same for a thread of any process. Returns false if that is not permitted or the thread
+/// [any thread] Pins a thread of any process to this core. Returns false if that is not permitted or the thread
 /// has ended.
 bool pin_thread_to(pid_t thread, int core);
 /// [calling thread] Lets the thread run on any core that the process may use. Throws std::system_error.

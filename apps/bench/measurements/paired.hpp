@@ -125,14 +125,14 @@ std::uint64_t time_half_window(Endpoint& endpoint, std::uint64_t round_trips) {
 }
 
 /// [both sides] Measures the windows of a case in several places of the memory, one after the other, each as
-/// window(floor, endpoint). In each place both are created anew, as Floor(session, place) and
+/// window(floor, endpoint). In each place both are created again, as Floor(session, place) and
 /// Endpoint(session).
 template <class Endpoint, class Floor, std::size_t places, class Window>
 void for_each_window(Session& session, Window&& window) {
     HeldMemory memory;
     for (std::size_t place = 0; place < places; ++place) {
         if (place != 0) memory.add();
-        session.arrive_and_wait(); // both sides have left the link that is created anew
+        session.arrive_and_wait(); // both sides have left the link that is created again
         Floor floor(session, place);
         Endpoint endpoint(session);
         session.arrive_and_wait();

@@ -57,7 +57,7 @@ void PathRecorder::begin_step(pid_t thread, const user_regs_struct& registers, c
         tracer_.begin_step(thread);
 }
 
-/// Steps the thread that stands at `begin` until its operation has ended, and then continues it.
+/// Steps the thread that is stopped at `begin` until its operation has ended, and then continues it.
 PathTrace PathRecorder::step_to_end(PathMark begin, const std::function<void()>& after_each_step) {
     const pid_t thread = tracer_.wait_at(begin);
     PathTrace trace(thread);
@@ -161,13 +161,13 @@ PathTrace PathRecorder::step_worker(pid_t caller) {
         if (tracer_.stands_still(caller)) break;
         const user_regs_struct registers = tracer_.registers(thread);
         begin_step(thread, registers, traces.at(thread));
-        // A thread that stands at a mark after begin_step() has executed nothing.
+        // A thread that is stopped at a mark after begin_step() has executed nothing.
         if (!tracer_.stands_still(thread)) traces.at(thread).add(registers);
     }
     const PathMark reached = tracer_.mark_of(caller);
     tracer_.thaw();
     for (const pid_t worker : workers_) {
-        // A worker that has not been woken continues to sleep, perhaps for ever. Its step ends with the call
+        // A worker that has not been woken continues to sleep, perhaps forever. Its step ends with the call
         // that wakes it.
         if (tracer_.stands_still(worker)) tracer_.resume(worker);
     }

@@ -256,7 +256,7 @@ void Tracer::thaw() {
 void Tracer::wait_until_asleep(const std::set<pid_t>& threads) {
     for (;;) {
         const bool asleep = std::all_of(threads.begin(), threads.end(), thread_is_asleep);
-        // A thread that stands at an ignored mark must be continued, and is not asleep then.
+        // A thread that is stopped at an ignored mark must be continued; it is not asleep then.
         int status = 0;
         const pid_t changed = waitpid(-1, &status, __WALL | WNOHANG);
         if (changed > 0)

@@ -27,7 +27,7 @@ class Tracer {
 
     /// From here on, threads pass this mark without stopping.
     void ignore(PathMark mark) { ignored_.insert(mark); }
-    /// Returns the thread that stands at the mark; waits for one. Throws std::runtime_error if a traced
+    /// Waits until a thread is stopped at the mark, and returns it. Throws std::runtime_error if a traced
     /// process ends.
     pid_t wait_at(PathMark mark);
     /// Waits until a thread that was continued or stepped stands still. Returns its mark, or none.
@@ -37,7 +37,7 @@ class Tracer {
 
     /// [of a thread that stands still]
     void resume(pid_t thread);
-    /// Executes the next instruction. If that is a mark, the thread stands at it at once. wait_for() returns
+    /// Executes the next instruction. If that is a mark, the thread stops at it at once. wait_for() returns
     /// when the step is complete.
     void begin_step(pid_t thread);
     /// Executes the function at whose first instruction the thread stands, at full speed; wait_for() returns

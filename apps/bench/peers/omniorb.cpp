@@ -20,7 +20,7 @@ namespace {
 enum class Transport { tcp, unix_socket };
 
 /// [any-thread] The sequence numbers of the messages that have arrived, in order. push() blocks while there
-/// are 1024. This stops the ORB's thread and thereby, through the socket, the sender.
+/// are 1024. This stops the ORB's thread. The full socket then stops the sender.
 class Inbox {
   public:
     void push(std::uint64_t sequence) {

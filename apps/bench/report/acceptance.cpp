@@ -238,7 +238,7 @@ AcceptanceResult check_limit(const AcceptanceLimit& limit, const Report& report)
     result.max = *std::max_element(values.begin(), values.end());
     if (numerator->window_counts) result.limit.limit = limit.limit_at(numerator->window_counts->floor_ns);
     if (numerator->is_paired() && denominator == nullptr) {
-        // Over the windows, of which there are many more than runs.
+        // Percentiles of the windows, because there are many more windows than runs.
         result.min = numerator->summary.p25;
         result.max = numerator->summary.p75;
     }

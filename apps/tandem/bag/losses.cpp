@@ -15,7 +15,7 @@ void Losses::add(const std::vector<std::string>& problems) {
 }
 
 void Losses::add(const std::string& problem) {
-    // Several readings of a file find the same.
+    // A file that is read several times shows the same problem each time.
     if (std::find(problems_.begin(), problems_.end(), problem) == problems_.end())
         problems_.push_back(problem);
 }

@@ -120,7 +120,7 @@ std::string for_package(const std::string& header, const HeaderPackage& package,
     return fmt::format("if {}/{} is meant: apt install {}", package.folder, header, package.package);
 }
 
-// Returns the remedy for a header whose name headers of several packages have: the package of another such header that the
+// Returns the remedy for a header whose name occurs in several packages: the package of another such header that the
 // component includes; "" if there is none.
 std::string for_header_beside(const std::string& header, const BuildFacts& facts) {
     if (header.find('/') != std::string::npos) return "";

@@ -37,7 +37,7 @@ std::string build_error(const process::CommandResult& build, const Candidate& ca
 process::CommandResult build(const CensusModel& model, const Candidate& candidate, const fs::path& output,
                              double limit_s) {
     process::CommandOptions options;
-    // Both steps have this limit; what they are in must not exceed it either.
+    // Each of the two steps has this limit, so the command that runs both gets a longer one.
     options.timeout = std::chrono::milliseconds(static_cast<std::int64_t>(1000 * (2 * limit_s + 30)));
     options.merge_errors = true;
     options.stop_on_signal = true;

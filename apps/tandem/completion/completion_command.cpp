@@ -28,7 +28,7 @@ std::string candidates(const CLI::Option& option, const std::string& path) {
     if (kind == "FILE" || name == "FILE") return "_tandem_files -f";
     if (kind == "DIR" || name == "DIR") return "_tandem_files -d";
     if (kind == "LINK" || name == "LINK") return "_tandem_links";
-    if (name == "COMPONENT") return "_tandem_components " + group_of(path); // `tandem GROUP list` has them
+    if (name == "COMPONENT") return "_tandem_components " + group_of(path); // listed by `tandem GROUP list`
     const std::size_t begin = type.find('{'), end = type.find('}');
     if (begin == std::string::npos || end == std::string::npos) return "";
     std::string words = type.substr(begin + 1, end - begin - 1);

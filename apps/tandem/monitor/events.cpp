@@ -165,7 +165,7 @@ class Comparison {
     }
 
     void add_end(const LinkState& link, Side side, const SideState& host, bool in_order) {
-        add_host(link, side, host, !in_order, in_order ? "has ended in order" : "has died");
+        add_host(link, side, host, !in_order, in_order ? "has ended cleanly" : "has died");
     }
     void add_host(const LinkState& link, Side side, const SideState& host, bool bad, const char* what) {
         add(link, bad,

@@ -222,12 +222,12 @@ void add_ticks(const State& state, Text& text) {
     for_each_tick(state, [&](const std::string& labels, const TickState& tick) {
         text.sample("", labels, tick.hang ? tick.hang->seconds : 0.0);
     });
-    text.family("tandem_tick_lateness_seconds", "histogram",
-                "Time from when a tick was due to when it began.", "seconds");
+    text.family("tandem_tick_lateness_seconds", "histogram", "Time from when a tick was due to its start.",
+                "seconds");
     for_each_tick(state, [&](const std::string& labels, const TickState& tick) {
         text.octave_histogram(labels, tick.lateness);
     });
-    text.family("tandem_tick_execution_seconds", "histogram", "Time from when a tick began to its end.",
+    text.family("tandem_tick_execution_seconds", "histogram", "Time from the start of a tick to its end.",
                 "seconds");
     for_each_tick(state, [&](const std::string& labels, const TickState& tick) {
         text.octave_histogram(labels, tick.execution);

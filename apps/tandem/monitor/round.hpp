@@ -13,7 +13,7 @@ struct RoundBounds {
     std::uint64_t time_ns = 1'000'000'000;
 };
 
-/// Bounds one round of reading, because other processes decide how much there is to read. [one thread]
+/// Limits one round of reading, because other processes determine the amount of data. [one thread]
 class Round {
   public:
     /// Begins the round. `stop`: also ends it; null: nothing does.

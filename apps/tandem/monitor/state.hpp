@@ -38,8 +38,8 @@ struct SideState {
     std::string model{}; ///< of its components, from its port table; kept after its death; empty: unknown
     std::uint32_t pid_elsewhere = 0; ///< in its own pid namespace, if that is another one (a container)
     bool unpublished = false;        ///< it has joined, but has not published its ports
-    bool left = false;               ///< it has ended in order; if it is dead or gone without this, it died
-    bool previous_left = false;      ///< the previous process of this side has ended in order
+    bool left = false;               ///< it has ended cleanly; if it is dead or gone without this, it died
+    bool previous_left = false;      ///< the previous process of this side has ended cleanly
 
     bool has_process() const { return pid != 0 || pid_elsewhere != 0; }
     bool is_process_of(const SideState& other) const {

@@ -18,12 +18,12 @@ std::uint64_t milliseconds_since_epoch() {
     return static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::milliseconds>(now).count());
 }
 
-/// Notes what a bound left out. The first note stays, so that the text is one line.
+/// Notes what was left out because of a limit. Only the first note is kept, so that the text is one line.
 void add_cut(State& state, const std::string& text) {
     if (state.cut.empty()) state.cut = text;
 }
 
-/// Copies a link from an earlier state, if it is there.
+/// Copies a link from an earlier state, if that state has it.
 void keep_link(const std::string& name, const State& before, State& state) {
     const std::string shown = command::replace_nonprintable(name);
     for (const LinkState& link : before.links)
@@ -40,7 +40,7 @@ void StateReader::read_link(const std::string& name, State& state, Round& round)
     state.links.push_back(reader.read(std::move(*observation), now_ns, round));
     if (reader.was_cut())
         add_cut(state,
-                fmt::format("link {}: not all messages were read; one look at all links reads for at most "
+                fmt::format("link {}: not all messages were read; one scan of all links reads for at most "
                             "{} and {} MiB",
                             state.links.back().name, command::format_duration(bounds_.time_ns),
                             bounds_.message_bytes >> 20));
@@ -81,13 +81,13 @@ void StateReader::read_links(const std::set<std::string>& names, const State& be
     }
     if (!first_.empty())
         add_cut(state, fmt::format(
-                           "some links are as in an earlier look; one look at all links reads for at most {}",
+                           "some links are as in an earlier scan; one scan of all links reads for at most {}",
                            command::format_duration(bounds_.time_ns)));
     std::sort(state.links.begin(), state.links.end(),
               [](const LinkState& a, const LinkState& b) { return a.name < b.name; });
 }
 
-/// Notes the links that were asked for by name and are not there, or belong to another user.
+/// Notes the links that were requested by name and do not exist, or belong to another user.
 void StateReader::check_wanted(State& state) const {
     for (const std::string& wanted : wanted_) {
         const std::string shown = command::replace_nonprintable(wanted);

@@ -67,7 +67,7 @@ void judge_end(const LinkState& link, Side side, Findings& findings) {
     const bool in_order = link.side(side).left;
     findings.add(in_order ? Level::gone : Level::dead,
                  fmt::format("link {}: {} has {}", link.name, host_of(link, side),
-                             in_order ? "ended in order" : "died"));
+                             in_order ? "ended cleanly" : "died"));
 }
 
 void judge_sides(const LinkState& link, Findings& findings) {
@@ -164,8 +164,8 @@ void judge_hosts(const State& state, Findings& findings) {
                                  refused.from, refused.to, refused.reason));
 }
 
-/// Judges what is missing from the look itself.
-void judge_look(const State& state, Findings& findings) {
+/// Reports missing links, a failed recording, and what could not be read.
+void judge_completeness(const State& state, Findings& findings) {
     for (const std::string& link : state.missing_links)
         findings.add(Level::missing, fmt::format("link {} does not exist; start its hosts", link));
     if (!state.recording_failure.empty()) findings.add(Level::unrecorded, state.recording_failure);
@@ -246,7 +246,7 @@ Verdict judge(const State& state) {
     judge_hangs(state.ticks, findings);
     for (const TickState& tick : state.ticks) judge_tick(tick, findings);
     judge_hosts(state, findings);
-    judge_look(state, findings);
+    judge_completeness(state, findings);
     if (seen == 0 && !state.links.empty() && state.hosts.empty())
         findings.add(Level::no_link, "all links belong to other users");
     Verdict verdict = std::move(findings).verdict();

@@ -32,7 +32,7 @@ class Recorder {
     bool poll(shm::CallActivity activity = shm::CallActivity::possible,
               LinkFollower::Rings rings = LinkFollower::Rings::all);
 
-    /// Sets a flag that poll() looks at; nullptr: none. The flag must outlive this object.
+    /// Sets a flag that poll() checks; nullptr: none. The flag must outlive this object.
     void set_stop(const std::atomic<bool>* stop) { stop_ = stop; }
 
     /// Sets the log time and publish time of subsequent records, for a lock-step run in simulated time.

@@ -39,10 +39,10 @@ Side absent_side(const RecordedLink& recorded, const std::string& link) {
         const auto& there = observation->segment.side(side);
         return format_pid(there.pid, there.pid_elsewhere);
     };
-    throw std::runtime_error(fmt::format(
-        "link '{}': {} ({}) and {} ({}) are both running; stop the one that the replay is to replace", link,
-        describe_host(recorded, Side::first), pid(Side::first), describe_host(recorded, Side::second),
-        pid(Side::second)));
+    throw std::runtime_error(
+        fmt::format("link '{}': {} ({}) and {} ({}) are both running; stop the one that the replay replaces",
+                    link, describe_host(recorded, Side::first), pid(Side::first),
+                    describe_host(recorded, Side::second), pid(Side::second)));
 }
 
 /// Returns the sides that share the component. A side is one process and is replaced completely.

@@ -22,8 +22,8 @@ void add_replay_command(CLI::App& tandem, Action& selected) {
         "--lockstep --record reproduces the same bytes.\n"
         "--check compares each answer with the recorded one and prints the first difference with its tick\n"
         "and member.\n"
-        "Exit code 1 if an answer differs, a recorded type has changed, or no host is there to receive the\n"
-        "replay.");
+        "Exit code 1 if an answer differs, a recorded type has changed, or no host is running that receives\n"
+        "the replay.");
     command->add_option("FILE", options->file, "recording made by tandem record")->required();
     command
         ->add_option(

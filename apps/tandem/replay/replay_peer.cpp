@@ -59,7 +59,7 @@ void ReplayPeer::open() {
         link_.open();
     } catch (const shm::SideTaken& taken) {
         throw std::runtime_error(
-            fmt::format("link '{}': {}, which the replay is to replace, is still running; stop it first ({})",
+            fmt::format("link '{}': {}, which the replay replaces, is still running; stop it first ({})",
                         name_, recorded_.host_of(side_), taken.what()));
     }
 }

@@ -33,7 +33,7 @@ SteppedHosts::SteppedHosts(const ReplayOptions& options, const std::string& repl
     const bool stays =
         replaced_host == "opros_host" ? !folder_.rtc_conf.empty() : !folder_.application.empty();
     if (!stays)
-        throw std::runtime_error(fmt::format("{} has only {}, which the replay is to replace",
+        throw std::runtime_error(fmt::format("{} has only {}, which the replay replaces",
                                              options.lockstep.string(), replaced_host));
 }
 

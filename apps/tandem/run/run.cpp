@@ -104,7 +104,7 @@ class HostRun {
         service_.report_stopping();
         const bool in_order = supervisor_.stop_all(
             seconds(options_.grace_s), [this](const Supervisor::Events& events) { on_host_exit(events); });
-        if (!in_order && failure_.empty()) failure_ = "a host did not end in order; see the lines above";
+        if (!in_order && failure_.empty()) failure_ = "a host did not end cleanly; see the lines above";
         const bool has_reader = output_.write("");
         // The last line, because the other hosts may print many lines until they have ended.
         print_note(failure_.empty() ? "all hosts have ended" : "failed: " + failure_);

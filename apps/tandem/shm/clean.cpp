@@ -14,7 +14,7 @@ namespace {
 
 using shm::Side;
 
-// The former holders show whose data is removed.
+// The previous holders show whose data is removed.
 std::string format_sides(const shm::ObservedSegment& segment) {
     return fmt::format("first {}; second {}", format_side(segment, Side::first),
                        format_side(segment, Side::second));

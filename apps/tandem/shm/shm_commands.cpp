@@ -24,7 +24,7 @@ constexpr CommandHelp list_help{
     "  absent   has not joined this generation yet\n"
     "  alive    has joined\n"
     "  stopped  has joined, but a signal or a debugger has stopped its process\n"
-    "  dead     has left or died; the pid is that of the former process\n"
+    "  dead     has left or died; the pid is that of the previous process\n"
     "  held     the segment cannot be read, and a running process has joined it\n"
     "`pid N of another namespace`: the process runs in another container, and N is its pid there.\n"
     "Segments of other users are listed but not opened. Damaged segments are listed with the reason.\n"

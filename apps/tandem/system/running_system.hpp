@@ -15,7 +15,7 @@ struct RunningSystem {
 };
 
 /// Finds the hosts with these process ids, or the only ones of this user if there are none. Throws std::runtime_error with
-/// one line if a process is no host, or if there are several hosts of a model.
+/// one line if a process is not a host, or if there are several hosts of a model.
 RunningSystem find_running_system(const std::vector<pid_t>& pids);
 
 /// Writes DIR/rtm/rtc.conf with the connections, active RTCs and configuration sets of the running host. Returns a line for

@@ -90,7 +90,7 @@ class Snapshot {
         return (setup_.creates(component_of(port)) ? "" : "rtcloc://unix:self/") + port;
     }
 
-    // An entry of the former rtc.conf connects the port with another process.
+    // An entry of the previous rtc.conf connects the port with another process.
     bool is_kept(const std::string& port) const {
         return std::any_of(
             setup_.connections.begin(), setup_.connections.end(), [&](const std::string& entry) {

@@ -24,7 +24,7 @@ class StagedFolder {
 
     /// Gives DIR the new sides.
     void publish();
-    /// Gives DIR the files that differ from its own, each by rename, and keeps the former ones as FILE~.
+    /// Replaces the files of DIR that differ, each by rename, and keeps the previous ones as FILE~.
     void publish_files();
 
   private:

@@ -42,7 +42,7 @@ void add_save(CLI::App& system, Action& selected) {
     auto options = std::make_shared<SaveSystemOptions>();
     CLI::App* command = add_command(
         system, "save", "Saves a running system as a folder for tandem run",
-        "Copies the configuration from which the hosts run. Writes the present connections, active RTCs and\n"
+        "Copies the configuration from which the hosts run. Writes the current connections, active RTCs and\n"
         "configuration sets of the RTM host, and the properties of the OPRoS components. Connections of the\n"
         "OPRoS application stay as they are, because they cannot change while it runs. A line names what\n"
         "cannot be saved.");
@@ -54,7 +54,7 @@ void add_save(CLI::App& system, Action& selected) {
         ->allow_extra_args(false);
     command->add_flag(
         "--replace", options->replace,
-        "DIR is the folder from which the hosts run: change its files, and keep the former ones "
+        "DIR is the folder from which the hosts run: change its files, and keep the previous ones "
         "as FILE~");
     command->callback([=, &selected] { selected = [options] { return system_save(*options); }; });
 }

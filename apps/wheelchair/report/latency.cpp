@@ -15,7 +15,7 @@ constexpr std::size_t table_size = 100;
 constexpr std::size_t start_ticks = 100; // one second
 constexpr double stopping_s = 1.0;       // hosts stop one after the other, at most for this time
 
-/// A thread that wakes on an idle core waits for some microseconds. NaN does not disturb.
+/// A thread that wakes on an idle core waits for some microseconds. Returns false for NaN.
 bool is_disturbed(double core_taken) {
     constexpr double long_enough = 20e-6;
     return core_taken > long_enough;

@@ -134,7 +134,7 @@ LiveDrive::~LiveDrive() {
 }
 
 void LiveDrive::run() {
-    sigset_t all; // only the main thread handles signals, to stop the hosts in order
+    sigset_t all; // only the main thread handles signals, to stop the hosts cleanly
     sigfillset(&all);
     pthread_sigmask(SIG_BLOCK, &all, nullptr);
     while (!ends_) {

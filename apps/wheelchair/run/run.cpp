@@ -183,7 +183,7 @@ class HostedRun {
                 tick = n;
                 driver.run_tick(n == scenario_.last_tick(), after_step);
             } catch (const std::runtime_error& e) {
-                // The socket closes before the process ends. Waits for its end, so that the message contains the host.
+                // The socket closes before the process ends. Waits for its end, so that the message names the host.
                 handle_events(supervisor_.watch(200ms));
                 failures_.push_back(fmt::format("lock-step ended at tick {}: {}", n, e.what()));
                 return;

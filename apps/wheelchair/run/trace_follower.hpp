@@ -74,8 +74,8 @@ struct ComponentTraces {
     TraceFollower<JoystickRecord> joystick;
     TraceFollower<ControlRecord> control;
 
-    /// `folder`: RunDirectory::traces(). `limit`: that of HWComp. More is kept of the others, because each kept record has
-    /// a counterpart in the traces that it depends on.
+    /// `folder`: RunDirectory::traces(). `limit`: that of HWComp. More records are kept of the others, because each kept
+    /// record needs its counterparts in the traces that it depends on.
     explicit ComponentTraces(const std::string& folder, TraceLimit limit = {})
         : hw(folder + "/HWComp.trace", limit),
           joystick(folder + "/JoystickComp.trace", {4 * limit.records, limit.discard_files}),

@@ -110,7 +110,7 @@ std::string ApplicationControl::late_reply(const std::string& request) {
     const std::string callback = component != nullptr ? running_callback(*component) : "";
     return dump(
         {{"error",
-          fmt::format("component {}: {} has not ended within {} s{}; the host goes on with it. If the "
+          fmt::format("component {}: {} has not ended within {} s{}; the host continues with it. If the "
                       "component is slow, allow more time with --timeout; otherwise it hangs",
                       name, command, limit_s(parsed), callback.empty() ? "" : ": " + callback)}});
 }

@@ -16,7 +16,7 @@ class ControlServer {
   public:
     /// Answers requests about the application from now on.
     ControlServer(engine::Application& application, const std::string& profile);
-    /// Answers nothing about properties any more. Call it before the application is shut down.
+    /// No longer answers requests for properties. Call it before the application is shut down.
     void close() { control_->close(); }
     /// Ends the socket and waits for the requests that are still running. Call it when the application is shut down.
     /// Returns false if one still runs, because a component hangs: the application must then not be unloaded.

@@ -12,7 +12,7 @@
 
 namespace tandem::control {
 
-/// The present ports of a component. While they are described, a thread that removes one of them waits. Lists them for
+/// The current ports of a component. While they are described, a thread that removes one of them waits. Lists them for
 /// other processes (host/process/published/inventory.hpp).
 class PortList final : public PortListener {
   public:

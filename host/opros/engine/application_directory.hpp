@@ -44,8 +44,8 @@ class ApplicationDirectory final : public ComponentDirectory {
     void set_profile_connections(std::vector<ConnectionProfile> connections) {
         profile_connections_ = std::move(connections);
     }
-    /// Ends all connections that components have requested. Waits for the calls under way, during which the directory knows
-    /// these connections no more.
+    /// Ends all connections that components have requested. Removes these connections from the directory first, then waits
+    /// for the calls under way.
     void disconnect_all() {
         decltype(ended_) ended;
         decltype(connections_) connections;

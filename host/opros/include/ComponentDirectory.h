@@ -18,7 +18,7 @@ class ComponentDirectory {
     virtual ~ComponentDirectory() {}
     /// Returns the names of the components that could be loaded, as the application profile lists them.
     virtual std::vector<std::string> names() const = 0;
-    /// Returns the component, or NULL if there is none of this name, for access to its ports, state and listeners. It
+    /// Returns the component, or NULL if no component has this name, for access to its ports, state and listeners. It
     /// exists until all components have been destroyed.
     virtual Component* find(const std::string& name) = 0;
     /// Returns the name in the component's profile, or an empty text if there is no such component.

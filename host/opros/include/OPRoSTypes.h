@@ -40,7 +40,7 @@ typedef enum { OPROS_SERVICE_PORT_REQUIRED, OPROS_SERVICE_PORT_PROVIDED } Servic
     }
 #endif
 
-/// An argument or the result of a service call on its way through a connector.
+/// An argument or the result of a service call while a connector passes it on.
 class opros_params : public opros_any {
   public:
     opros_params() {}

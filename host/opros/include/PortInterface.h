@@ -27,7 +27,7 @@ class PortInterface {
     /// Adds a port. Replaces a port of the same kind and name, whose connections end. Returns
     /// OPROS_BAD_INPUT_PARAMETER for NULL.
     virtual ReturnType addPort(const std::string& name, Port* port);
-    /// Removes a port, ends its connections and returns it, or NULL if there is none of this name. The caller then
+    /// Removes a port, ends its connections and returns it, or NULL if no port has this name. The caller then
     /// owns a removed service port (ours).
     virtual Port* removePort(const std::string& name);
     /// Adds a listener. On return from removePortListener() it is not in use (ours).

@@ -14,7 +14,7 @@ class PropertyInterface {
     PropertyInterface();
     virtual ~PropertyInterface();
     virtual void setProperty(const std::string& name, const std::string& value);
-    /// Returns the value, which may be changed through the reference, or an empty string if there is none of this name.
+    /// Returns the value, which may be changed through the reference, or an empty string if no property has this name.
     virtual std::string& getProperty(const std::string& name);
     virtual std::map<std::string, std::string>& getPropertyMap();
 

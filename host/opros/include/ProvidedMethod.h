@@ -63,7 +63,7 @@ class ProvidedMethod : public ProvidedMethodInterface {
 
   protected:
     /// Calls the function. `values` are the addresses of the arguments, whose types have been checked. `writable`
-    /// tells for each argument whether the caller's value may be written.
+    /// says for each argument whether the caller's value may be written.
     virtual RetType apply(const void* const* values, const bool* writable) = 0;
 
     // Use arguments that belong to this call: the method may write all of them.

@@ -78,7 +78,7 @@ int run(const OprosHostOptions& options) {
     shutdown_watcher.wait_for_signal();
     control.close();
     application.shut_down();
-    // A request of a component that hangs does not end.
+    // A request that waits for a hanging component does not end.
     const bool requests_have_ended = control.stop_within(
         application.stuck_components().empty() ? host.grace : std::chrono::nanoseconds(0));
     if (options.stats)

@@ -22,7 +22,7 @@ struct Action {
     std::atomic<bool> is_armed{true};
 };
 
-/// Keeps all actions until the process ends: a signal that is on its way refers to its action.
+/// Keeps all actions until the process ends: a pending signal refers to its action.
 Action& keep_action(std::string line, int code) {
     static auto& mutex = *new std::mutex;
     static auto& all = *new std::deque<Action>;

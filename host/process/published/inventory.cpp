@@ -89,7 +89,7 @@ class Inventory {
         }
         text_ = std::move(packed);
         unused_ = 0;
-        changed_from_ = 0; // an earlier change of this text may lie beyond its new end
+        changed_from_ = 0; // bytes of an earlier change of this text may remain beyond its new end
         changed_to_ = text_.size();
     }
 

@@ -34,7 +34,7 @@ struct InventoryHead {
 /// of the line only. Without memory for the file, nothing is listed. [any-thread; waits for no component]
 void list_part(const void* part, const std::vector<std::string>& fields);
 
-/// Takes the part off the list, if it is there. [any-thread]
+/// Takes the part off the list, if it is listed. [any-thread]
 void unlist_part(const void* part);
 
 } // namespace tandem::process

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // rtm_host: runs the RT-Components that an rtc.conf names, as OpenRTM-aist's rtcd does, with the same options.
 // It prints `ready` on standard output when all of rtc.conf has been carried out (`ready, but ...` if there is no
-// component), and ends on SIGINT, SIGTERM and SIGHUP. Exit code 0: it ended in order; 1: bad input, or a component's
+// component), and ends on SIGINT, SIGTERM and SIGHUP. Exit code 0: it ended cleanly; 1: bad input, or a component's
 // code did not return and was left behind; any other: the code that a component passed to exit().
 #include "host/log/log.hpp"
 #include "host/log/output_failures.hpp"
@@ -192,7 +192,7 @@ int main(int argc, char** argv) {
     std::setvbuf(stdout, nullptr, _IOLBF, 0); // output of components precedes the error that it explains
     tandem::log::open("rtm_host");
     tandem::process::set_log_flush(flush_logs);
-    // Installed before components are created, so that an early signal also ends the host in order.
+    // Installed before components are created, so that an early signal also ends the host cleanly.
     // runManager() keeps these handlers.
     for (int number : {SIGINT, SIGTERM, SIGHUP}) std::signal(number, [](int) { RTC::Manager::terminate(); });
     int exit_code = 0;

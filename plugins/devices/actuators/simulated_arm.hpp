@@ -51,7 +51,7 @@ class SimulatedArm : public SimulatedDevice<Class> {
     }
 
   private:
-    /// Advances all joints to the present time and calls action(joint, index) for each.
+    /// Advances all joints to the current time and calls action(joint, index) for each.
     template <typename Action>
     int for_each_joint(Action action) {
         return this->perform([&](double, double elapsed) {

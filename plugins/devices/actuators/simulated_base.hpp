@@ -18,7 +18,7 @@ class SimulatedBase : public SimulatedDevice<Class> {
         set_motion(0, 0, -1);
     }
 
-    /// Advances the base to the present time and calls action().
+    /// Advances the base to the current time and calls action().
     template <typename Action>
     int perform_moved(Action action) {
         return this->perform([&](double, double elapsed) {

@@ -19,7 +19,7 @@ class SimulatedDrive : public SimulatedDevice<Class> {
     }
 
   protected:
-    /// Advances the joint to the present time and calls action(joint) with the lock held.
+    /// Advances the joint to the current time and calls action(joint) with the lock held.
     template <typename Action>
     int with_joint(Action action) {
         return this->perform([&](double, double elapsed) {

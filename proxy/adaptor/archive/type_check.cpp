@@ -44,7 +44,7 @@ TypeCheck unconverted(const Type& own, const Type& peer, bool sends) {
     const auto match = wire::match_signatures(wire::to_signature(own), wire::to_signature(peer));
     check.error = describe_difference(own, peer, sends);
     const bool fits = match == wire::SignatureMatch::equal || match == wire::SignatureMatch::add_time;
-    // strip_time is no match here: the OPRoS value would have a time of which the peer's type knows nothing.
+    // strip_time is not a match here: the OPRoS value would have a time that the peer's type lacks.
     if (match == wire::SignatureMatch::strip_time)
         check.error =
             fmt::format("field 'tm' is here and missing there: ask for '{} tm'", sends ? "drop" : "set");

@@ -151,7 +151,7 @@ void OutTap::discarded() {
 bool OutTap::take_kept(opros_any* value) {
     const KeptMessage& oldest = kept_[first_kept_];
     forget_oldest_kept();
-    port_.publish_room(nullptr); // also without a peer: the next one finds it in its ring
+    port_.publish_room(nullptr); // also without a peer: the next peer finds the message in its ring
     return decode(oldest.bytes, oldest.stamp, value);
 }
 

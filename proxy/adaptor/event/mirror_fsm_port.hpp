@@ -21,7 +21,7 @@ class MirrorFsmPort final : public MirrorEventPortBase {
     /// `peer` is the port's entry in the peer's table. The channel must outlive this port.
     MirrorFsmPort(link::Port peer, link::ChannelWriter& channel, PeerNames names = {});
 
-    /// Returns OPROS_OUT_OF_RESOURCES without room, and OPROS_BAD_INPUT_PARAMETER if the peer has no such
+    /// Returns OPROS_OUT_OF_RESOURCES if there is no room, and OPROS_BAD_INPUT_PARAMETER if the peer has no such
     /// event or one with another argument; this counts as a dropped message. An event without content has the default value
     /// of its type.
     ReturnType push(Event* event) override;

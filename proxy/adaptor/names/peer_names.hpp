@@ -33,7 +33,7 @@ class PeerNames {
     std::map<std::string, std::string> names_; ///< the peer's names, by this side's names
 };
 
-/// Returns advice about a name that the other component lacks: `; A has its types: set property ...`, where `pair` tells
+/// Returns advice about a name that the other component lacks: `; A has its types: set property ...`, where `pair` says
 /// which two names belong together, such as `print=echo`. Empty if nothing fits.
 std::string suggest_names(const std::string& port, const std::vector<std::string>& fitting,
                           const std::string& pair);

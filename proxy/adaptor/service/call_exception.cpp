@@ -29,7 +29,7 @@ wire::Type types_of(const std::vector<opros_params>& values, const wire::Type& d
     return message;
 }
 
-/// The fields of an exception that came across a link: decoded when somebody asks for them.
+/// The fields of an exception that came across a link, decoded on request.
 class EncodedFields final : public opros::exception_fields {
   public:
     EncodedFields(wire::Type types, std::vector<std::byte> bytes)

@@ -23,7 +23,7 @@ struct MethodTypes {
     std::string operation_signature() const;
 };
 
-/// `expected`: the operation that the method stands for, if known; its unions are looked for. Throws wire::SignatureError,
+/// `expected`: the operation that the method stands for, if known; its unions are searched for. Throws wire::SignatureError,
 /// one line, if an argument or the result cannot cross a link.
 MethodTypes describe_method(Method& method, const wire::Operation* expected = nullptr);
 

@@ -175,7 +175,7 @@ void SharedComponents::peer_lost() {
     for (const auto& component : components_) component->peer_lost();
 }
 
-/// Tells the peer the component's state. A peer that is not there gets it when it comes.
+/// Tells the peer the component's state. An absent peer gets the state when it joins.
 void SharedComponents::report(SharedComponent& component) {
     for (int attempt = 0; attempt < report_attempts && link_->is_up(); ++attempt)
         if (link_

@@ -15,7 +15,7 @@
 namespace tandem::adaptor {
 
 /// Connected with a required service port of a shared component: a provider on the RTM side, whose interface is known only
-/// after the peer has told it. Until then calls throw MethodInvokeException, "not ready".
+/// after the peer has sent it. Until then calls throw MethodInvokeException, "not ready".
 class SharedRequiredPort final : public ProvidedServicePort {
   public:
     /// `port` is the required port's entry in the port table. The link must outlive this port.
@@ -28,7 +28,7 @@ class SharedRequiredPort final : public ProvidedServicePort {
     void bind(const link::control::ServiceBinding& binding);
 
     bool isDynamic() const override { return true; }
-    /// Stores the method. Whether it fits is reported when the peer has told the operations.
+    /// Stores the method. A mismatch is reported when the peer has sent its operations.
     std::string bindMethod(Method* required) override;
     ReturnType callService(std::string& name, std::vector<opros_params>& arguments,
                            opros_params& result) override;

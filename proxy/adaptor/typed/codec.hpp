@@ -14,7 +14,7 @@
 namespace tandem::adaptor {
 
 /// How values of T cross: signature, CDR, and the values in an OPRoS archive. T is a number, bool, std::string, or a
-/// std::vector of them or of such vectors. decode() reads bytes that another process wrote: the reader's ok() tells whether
+/// std::vector of them or of such vectors. decode() reads bytes that another process wrote: the reader's ok() says whether
 /// they were a value.
 template <class T>
 struct Codec {

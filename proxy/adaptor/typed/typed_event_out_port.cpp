@@ -55,7 +55,7 @@ bool TypedEventOutPort::decode(const shm::Record& record) {
             event_->setId(id);
             event_->setContent(content_);
             return true;
-        } catch (const std::exception& error) { // bytes that are no value
+        } catch (const std::exception& error) { // bytes that are not a value
             why = error.what();
         }
     channel_.count_undecodable_locked();

@@ -71,9 +71,8 @@ TypeCheck check_typed(const opros_any& sample, const link::Port& peer, bool send
 
 std::string why_not_archived(const opros_any& sample) {
     if (find_value_type(opros_any(sample).type())) return "";
-    return "this engine tells nothing but its name, and it is none of the numbers, bool, std::string and "
-           "vectors of these "
-           "that are known; list it in the file of TANDEM_OPROS_TYPES";
+    return "this engine gives only its name, and it is none of the known numbers, bool, std::string and "
+           "vectors of these; list it in the file of TANDEM_OPROS_TYPES";
 }
 
 wire::Type type_of(const opros_any& sample, const wire::Type&) {

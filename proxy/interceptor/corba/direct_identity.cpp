@@ -25,8 +25,8 @@ DirectIdentity::DirectIdentity(omniLocalIdentity& object, GenericServant& servan
 
 DirectIdentity::~DirectIdentity() { object_.loseRef(); }
 
-// When an object is deactivated or activated again, omniORB looks it up anew, and the servant gives the reference another
-// DirectIdentity.
+// When an object is deactivated or activated again, omniORB looks it up again, and the servant gives the reference
+// another DirectIdentity.
 void DirectIdentity::dispatch(omniCallDescriptor& call) {
     if (object_.deactivated()) [[unlikely]] {
         auto* usual = new omniInProcessIdentity(key(), keysize());

@@ -24,7 +24,7 @@ class DirectIdentity final : public omniInProcessIdentity {
     DirectIdentity(omniLocalIdentity& object, GenericServant& servant);
     ~DirectIdentity() override;
 
-    omniLocalIdentity& object_; ///< kept; tells whether the object is active
+    omniLocalIdentity& object_; ///< kept; says whether the object is active
     GenericServant& servant_;   ///< valid while the object is active
 };
 

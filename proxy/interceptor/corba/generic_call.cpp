@@ -14,7 +14,7 @@
 namespace tandem::interceptor {
 namespace {
 
-/// One call of a remote object on its way through the ORB, as omniidl's stubs make it.
+/// One call of a remote object through the ORB, made as omniidl's stubs make it.
 class Call final : public omniCallDescriptor {
   public:
     Call(const std::string& name, const wire::Operation& operation, std::span<const std::byte> arguments,

@@ -28,7 +28,7 @@ auto convert(CallTarget& target, const char* name, bool results, const Function&
     }
 }
 
-/// One call from another process on its way through the ORB, which calls these functions in the order arguments, run, results.
+/// One call from another process through the ORB, which calls these functions in the order arguments, run, results.
 class Upcall final : public omniCallDescriptor {
   public:
     /// `exceptions`: the ids of user exceptions that the ORB lets pass; any other becomes CORBA::UNKNOWN.

@@ -44,7 +44,7 @@ std::pair<void*, void*> StampedStream::open(std::span<std::byte> body, bool time
 }
 
 // Alignment in CDR counts from the start of the message. The time takes 8 bytes, the largest alignment, so
-// the body may be aligned as if it followed them, though it lies elsewhere.
+// the body may be aligned as if it followed them, although it is stored elsewhere.
 void StampedStream::leave_time(void*& cursor, void*& end) {
     in_time_ = false;
     cursor = body_.data();

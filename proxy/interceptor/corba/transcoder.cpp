@@ -188,7 +188,7 @@ void from_cdr_elements(const Type& element, std::uint32_t count, wire::CdrReader
     }
     if (const auto size = wire::primitive_size(element.kind)) {
         if (count == 0) return; // an empty sequence is not followed by padding
-        // Primitives lie in a row in both formats: one copy for all of them.
+        // Primitives are contiguous in both formats, so one copy is enough for all of them.
         const auto alignment = wire::primitive_alignment(element.kind);
         const auto block = from.get_block(size * count, alignment);
         if (block.empty()) throw_marshal();

@@ -254,7 +254,7 @@ Type any_type_of(CORBA::TypeCode_ptr code) try {
     const bool is_null = type.kind == wire::Kind::structure && type.children.empty();
     if (!is_null) Identification().identify(type, code);
     return type;
-} catch (const CORBA::UserException&) { // BadKind, Bounds: names that are none have made another signature
+} catch (const CORBA::UserException&) { // BadKind, Bounds: invalid names have changed the signature
     throw RefusedValue("an any's TypeCode contradicts itself");
 }
 

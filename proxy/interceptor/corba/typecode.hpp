@@ -20,7 +20,7 @@ std::string repository_id(std::string name);
 wire::Type any_type_of(CORBA::TypeCode_ptr code);
 
 /// Returns the TypeCode of an any's value. It is equivalent to the sender's if the type has its repository ids. Throws
-/// CORBA::SystemException for types without a TypeCode, and for ids and names that are none.
+/// CORBA::SystemException for types without a TypeCode, and for invalid ids and names.
 CORBA::TypeCode_ptr any_typecode_of(const wire::Type& value);
 
 } // namespace tandem::interceptor

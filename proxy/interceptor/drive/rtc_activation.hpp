@@ -41,7 +41,7 @@ class RtcActivation {
     const link::Link& link_;
     RtcDriver owner_driver_;
     RtcGroup rtcs_;
-    std::atomic<bool> activated_by_link_{false}; ///< then a departing peer leaves the RTCs to be deactivated
+    std::atomic<bool> activated_by_link_{false}; ///< then the RTCs are deactivated when the peer leaves
 };
 
 } // namespace tandem::interceptor

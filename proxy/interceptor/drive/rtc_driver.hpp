@@ -24,7 +24,7 @@ class RtcDriver final : public DrivenRtc {
         /// Gets "went to ERROR", "has exited", or the reason why the RTC could not be activated later. In the thread of the
         /// event, as `activated`.
         std::function<void(const std::string& what)> failed;
-        /// The RTC's onActivated has succeeded, whoever asked for it.
+        /// The RTC's onActivated has succeeded, on any caller's request.
         std::function<void()> activated;
         /// The RTC is active since then. In another thread, as `deactivated_by_other`.
         std::function<void()> active;

@@ -15,7 +15,7 @@ namespace tandem::interceptor {
 /// longer. Returns an empty string or an error of one line. [any-thread]
 class RtcTransitions {
   public:
-    /// `pause`: the time between two looks at the state. Calls through the references end at their own time limits.
+    /// `pause`: the time between two checks of the state. Calls through the references end at their own time limits.
     RtcTransitions(std::string name, RTC::RTObject_ptr rtc, RTC::ExecutionContext_ptr context,
                    std::chrono::milliseconds timeout, std::chrono::milliseconds pause);
 

@@ -42,7 +42,7 @@ OprosRtc& OprosRtc::create(RTC::Manager& manager, Source source) {
     if (!is_plain(name)) throw std::runtime_error(fmt::format("'{}' is not a valid name of an RTC", name));
     engine::wait_until_removed(manager, name);
     const std::string type = is_plain(source.component.type) ? source.component.type : implementation_id;
-    // A context whose thread sleeps until it is told, and which makes transitions in the thread that asks for them.
+    // A context whose thread sleeps until it is woken, and which makes transitions in the thread that requests them.
     const std::string arguments = fmt::format("{}?instance_name={}&type_name={}&execution_contexts={}",
                                               implementation_id, name, type, engine::triggered_context);
     const SourceScope scope(source);

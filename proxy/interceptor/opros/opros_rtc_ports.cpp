@@ -142,7 +142,7 @@ bool OprosRtc::add_provided_port(const link::Port& port, const std::string& name
     Service service;
     try {
         service.target = std::make_unique<MirrorRequiredPort>(port, *source_.link, source_.call_timeout);
-        service.target->bind({port.name, port.operations}); // the component that provides it is there
+        service.target->bind({port.name, port.operations}); // the component that provides it exists
     } catch (const wire::SignatureError& error) {           // the signature came from another process
         log::warn("{}: port '{}' is not shown: {}", getInstanceName(), name, error.what());
         return false;

@@ -275,7 +275,7 @@ void RemoteRtc::do_as_wanted(Found& rtc) {
         (error.empty() ? is_driven_ : wanted_active_) = error.empty();
     }
     if (!error.empty()) return events_.failed("cannot be activated again: " + error);
-    log::info("{}: RTC {} is active again, as the link wants it", owner_, name_);
+    log::info("{}: RTC {} is active again, as the link requires", owner_, name_);
 }
 
 bool RemoteRtc::has_gone(const std::shared_ptr<Found>& rtc) const {

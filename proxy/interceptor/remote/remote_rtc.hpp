@@ -30,13 +30,13 @@ class RemoteRtc final : public DrivenRtc {
   public:
     /// Called in this object's thread. Must not call this object, except for resume().
     struct Events {
-        /// Called when the RTC is there, or has other ports than before. Calls through these references end in bounded
+        /// Called when the RTC has appeared, or has other ports than before. Calls through these references end in bounded
         /// time.
         std::function<void(const RTC::PortServiceList& ports)> ports_changed;
         std::function<void()> gone;
         /// Called when the RTC went to ERROR or cannot be activated again; `what` is one line.
         std::function<void(const std::string& what)> failed;
-        /// Called when the RTC has become active, whoever asked for it.
+        /// Called when the RTC has become active, on any caller's request.
         std::function<void()> active;
     };
     /// `owner` begins log lines. `timeout`: see RtcTransitions.

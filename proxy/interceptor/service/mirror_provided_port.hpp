@@ -49,7 +49,7 @@ class MirrorProvidedPort final {
     ProviderReference consumer_;
     std::mutex mutex_; ///< guards the two below
     std::string left_out_;
-    /// Without the IDL: the types from the peer's requests, by signature. Entries are never removed.
+    /// The types from the peer's requests, by signature; used if the IDL is unknown. Entries are never removed.
     std::map<std::string, std::unique_ptr<wire::Operation>, std::less<>> requested_types_;
 };
 

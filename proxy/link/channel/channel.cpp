@@ -112,7 +112,7 @@ bool ChannelWriter::drop_for_room(const std::string& why) {
 }
 
 /// Polls, because a reader does not notify the writer: that would cost every reader a system call. Makes system calls
-/// only while the ring is full. Of several targets, one that reads nothing makes only one message wait in vain.
+/// only while the ring is full. If one of several targets reads nothing, only one message waits until the time limit.
 bool ChannelWriter::wait_for_room(std::size_t bytes) {
     constexpr auto pause = std::chrono::microseconds(50);
     const auto deadline = std::chrono::steady_clock::now() + policy_.wait;
@@ -151,8 +151,8 @@ bool ChannelWriter::report_refusal(std::size_t bytes) {
     if (bytes > limit) {
         // Logs once per limit, because a component sends such messages in every cycle.
         if (limit != std::exchange(reported_limit_, limit))
-            log::error("port '{}': a message of {} bytes is longer than {} and is dropped, as all such "
-                       "will be; raise large_kib to {} or more",
+            log::error("port '{}': a message of {} bytes is longer than {} and is dropped, like each longer "
+                       "one; raise large_kib to {} or more",
                        port_, bytes, limit, (bytes + 1023) / 1024);
     } else if (!bound_->ring.corrupt() && no_memory_.should_log()) {
         log::error("port '{}': a message of {} bytes finds no memory in {} and is dropped, {} so far; {} "

@@ -107,7 +107,7 @@ class ChannelWriter {
     void refuse(std::string_view why);
 
     bool is_bound() const;
-    /// Returns true if a write that has returned `written` was no failure: without a peer, the port is not connected.
+    /// Returns true if a write that has returned `written` did not fail: without a peer, the port is not connected.
     bool is_success(bool written) const { return written || rt::rehearsing() || !is_bound(); }
     /// Returns the maximum size of a record of the ring in bytes, or 0 without a ring.
     std::size_t longest_record() const;
@@ -190,10 +190,10 @@ class ChannelWriter {
     std::size_t reported_limit_ = 0; ///< the ring's limit when the last too long message was logged
     process::LogThrottle no_memory_, refused_, no_room_;
     PortPolicy policy_;
-    std::uint64_t room_ = 0;  ///< number of messages known to fit into the reader's depth
-    bool gave_up_ = false;    ///< the last wait was in vain, and the slowest target has read nothing since
-    bool has_policy_ = false; ///< policy_ requires an action of the writer
-    bool attends_ = false;    ///< has_policy_, or the peer listens
+    std::uint64_t room_ = 0;      ///< number of messages known to fit into the reader's depth
+    bool gave_up_ = false;        ///< the last wait timed out, and the slowest target has read nothing since
+    bool has_policy_ = false;     ///< policy_ requires an action of the writer
+    bool attends_ = false;        ///< has_policy_, or the peer listens
     std::vector<std::byte> last_; ///< with keep_last: the last message
     std::uint64_t last_stamp_ = 0;
     bool has_last_ = false;

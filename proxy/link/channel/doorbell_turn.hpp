@@ -22,8 +22,8 @@ class DoorbellTurn {
     void await();
     /// Returns true if the notifier may wait in this session until end(). [notifier-thread]
     bool begin(LinkSession& session);
-    /// Takes the turn for a consumer. Returns refused if another thread has it or the notifier does not leave in
-    /// time, and woken if wake() has been called. [the consumer's thread]
+    /// Takes the turn for a consumer. Returns refused if another thread has the turn or the notifier does not
+    /// leave in time, and woken if wake() was called. [the consumer's thread]
     Result begin(LinkSession& session, const void* consumer);
     /// Ends the wait of a successful begin(). Call it after each of them.
     void end();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The limits of service calls across a link. docs/joining.md tells them to users.
+// The limits of service calls across a link. docs/joining.md describes them for users.
 #pragma once
 
 #include <chrono>

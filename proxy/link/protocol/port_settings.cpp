@@ -47,8 +47,8 @@ std::vector<std::string> find_settings_without_port(const std::vector<std::strin
                                         port ? "" : "; it counts when the port is added"));
         else if (!has_effect(*setting, *port, settings.owns_ports))
             lines.push_back(fmt::format(
-                "{} '{}' has no effect here: it is one of the side that {}; give it to {}", settings.word,
-                name, setting->of == Of::sender ? "sends" : "receives", settings.peer_proxy));
+                "{} '{}' has no effect here: it is a setting of the side that {}; give it to {}",
+                settings.word, name, setting->of == Of::sender ? "sends" : "receives", settings.peer_proxy));
     }
     return lines;
 }

@@ -39,7 +39,7 @@ struct PortSettings {
 };
 
 /// Returns a line for each setting of a port that has no effect, because the table does not have this port or because
-/// the setting belongs to the other side. The lines list the existing ports. Ignores names that are no settings of ports.
+/// the setting belongs to the other side. The lines list the existing ports. Ignores names that are not settings of ports.
 std::vector<std::string> find_settings_without_port(const std::vector<std::string>& names,
                                                     const PortTable& table, const PortSettings& settings);
 

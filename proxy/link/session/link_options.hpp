@@ -19,7 +19,7 @@ struct LinkOptions {
     /// Minimum shared memory in bytes for each side's objects, without the chunks of its rings.
     std::size_t segment_bytes = std::size_t{4} * 1024 * 1024;
     shm::WaitOptions wait{}; ///< how calls wait, in both directions, and how threads wait on the doorbell
-    /// The group of users that may join besides the owner (shm::JoinOptions::group); empty: none. A side without a
+    /// The group of users that may join in addition to the owner (shm::JoinOptions::group); empty: none. A side without a
     /// group that finds a segment with a group, or the reverse, is refused with shm::Error.
     std::string group{};
     std::chrono::nanoseconds worker_idle_time = link::worker_idle_time; ///< shorter in tests

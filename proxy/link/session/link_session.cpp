@@ -28,10 +28,10 @@ LinkSession::LinkSession(std::shared_ptr<shm::Segment> segment, const shm::CallQ
 std::string LinkSession::end_reason() const {
     // Must come first: a truncated file reads as zeros, which the other checks would misinterpret.
     if (segment_->truncated())
-        return segment_->path() + " was truncated by another process; the link starts afresh";
+        return segment_->path() + " was truncated by another process; the link is set up again";
     if (segment_->peer_state() == shm::PeerState::dead) return "the peer process has gone";
     if (segment_->superseded())
-        return segment_->path() + " was removed or superseded; the link starts afresh";
+        return segment_->path() + " was removed or superseded; the link is set up again";
     return "";
 }
 

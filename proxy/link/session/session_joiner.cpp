@@ -13,7 +13,7 @@
 namespace tandem::link {
 namespace {
 
-// Version of everything that both sides must agree on besides the segment's layout. Raise it when the port table, the
+// Version of everything, except the segment's layout, that both sides must agree on. Raise it when the port table, the
 // requests or the records change. A segment with another version is refused.
 constexpr std::uint64_t protocol_version = 0x7461'6e64'656d'0008; // "tandem", 8
 

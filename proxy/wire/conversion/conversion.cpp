@@ -219,7 +219,7 @@ bool Conversion::run_text(const ConversionStep& step, CdrReader& in, CdrWriter& 
 bool Conversion::run_elements(const ConversionStep& step, std::uint32_t count, CdrReader& in,
                               CdrWriter& out) {
     const ConversionFrame& frame = frames_[step.frame];
-    // Handles all numbers at once, and thus the elements of an image in one copy.
+    // Handles all numbers in one step, so the elements of an image take one copy.
     if (frame.scan.empty() && frame.steps.size() == 1 && frame.steps.front().count == 1 &&
         (frame.steps.front().op == Op::copy || frame.steps.front().op == Op::number))
         return run_numbers(frame.steps.front(), count, in, out);

@@ -24,7 +24,7 @@ std::string joined(const std::string& outer, const std::string& name) {
     return outer.empty() ? name : outer + "." + name;
 }
 
-/// Returns whether `path` is the field `name` or lies within it.
+/// Returns whether `path` is the field `name` or a part of it.
 bool is_within(const std::string& path, const std::string& name) {
     return path == name || (path.starts_with(name) && path[name.size()] == '.');
 }

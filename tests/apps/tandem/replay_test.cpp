@@ -158,12 +158,10 @@ TEST_CASE("a replay in real time sends the recorded messages in order to the run
     // Both sides are this process: the replay finds them there.
     const auto taken = tandem_program({"replay", folder / "run.mcap"});
     CHECK(taken.exit_code == 1);
-    CHECK(taken.errors.find("are both running; stop the one that the replay is to replace") !=
-          std::string::npos);
+    CHECK(taken.errors.find("are both running; stop the one that the replay replaces") != std::string::npos);
     const auto held = tandem_program({"replay", folder / "run.mcap", "--in-place-of", "opros_host"});
     CHECK(held.exit_code == 1);
-    CHECK(held.errors.find("opros_host, which the replay is to replace, is still running") !=
-          std::string::npos);
+    CHECK(held.errors.find("opros_host, which the replay replaces, is still running") != std::string::npos);
     // A link of another name, on whose other side an RTM host would be.
     const shm::test::Link link;
     PeerHost peer(link.name);

@@ -25,7 +25,7 @@ inline CommandOutput shell(const std::string& command) {
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, output};
 }
 
-/// Runs a host until it has printed `ready` and `expected`, then ends it in order. `host` may have arguments.
+/// Runs a host until it has printed `ready` and `expected`, then ends it cleanly. `host` may have arguments.
 /// Exit code 137: it was silent for a minute.
 inline CommandOutput run_host(const std::string& host, const std::string& application,
                               const std::string& expected = "") {

@@ -201,7 +201,7 @@ TEST_CASE("a gamepad plugged in while driving moves the stick, and unplugging it
     const LiveStick stick(drive.stick_file(), LiveStick::Role::reader);
     KernelGamepad pad;
     if (!pad.is_permitted()) TANDEM_SKIP("/dev/uinput cannot be opened here; the other tests use a pipe");
-    // Found at the next look; a device's values count from its first event on.
+    // Found at the next search; a device's values count from its first event on.
     bool forward = false;
     for (int i = 0; i < 100 && !forward; ++i) {
         pad.send(EV_ABS, ABS_Y, i % 2); // an unchanged value causes no event

@@ -50,7 +50,7 @@ TEST_CASE("a wait for a child that runs on ends with its timeout") {
     CHECK(child.poll()->text() == "was killed by signal 9 (Killed)");
 }
 
-TEST_CASE("a child that handles SIGTERM ends in order, one that ignores it is killed") {
+TEST_CASE("a child that handles SIGTERM ends cleanly, one that ignores it is killed") {
     OutputPipe pipe;
     ChildProcess polite(shell("trap 'exit 0' TERM; echo ready; while :; do sleep 0.05; done"),
                         {-1, pipe.writer()});

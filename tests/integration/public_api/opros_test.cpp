@@ -132,8 +132,8 @@ TEST_CASE("with the OPRoS API alone, classes described in the user's header cros
     // A class that it leaves out is refused.
     CHECK(hosts.says("opros", "port 'reading': OPRoS type "));
     CHECK(hosts.says("opros",
-                     "cannot cross the link: this engine tells nothing but its name, and it is none of the "
-                     "numbers, bool, std::string and vectors of these that are known; list it in the file of "
+                     "cannot cross the link: this engine gives only its name, and it is none of the known "
+                     "numbers, bool, std::string and vectors of these; list it in the file of "
                      "TANDEM_OPROS_TYPES"));
     CHECK(hosts.says("opros", "moved: door 11.00 2.000 lift 9.750 4.000\n"));
     CHECK(hosts.stop_both());

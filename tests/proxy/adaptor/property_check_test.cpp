@@ -24,9 +24,11 @@ TEST_CASE("properties of AdaptorComp with an effect are not reported") {
 }
 
 TEST_CASE("a property of the other side or of a port of another kind is reported") {
-    CHECK(find_properties_without_port({"deadline_ms.goal"}, arm()) ==
-          Lines{"property 'deadline_ms.goal' has no effect here: it is one of the side that receives; give "
-                "it to InterceptorComp"});
+    CHECK(
+        find_properties_without_port({"deadline_ms.goal"}, arm()) ==
+        Lines{
+            "property 'deadline_ms.goal' has no effect here: it is a setting of the side that receives; give "
+            "it to InterceptorComp"});
     CHECK(find_properties_without_port({"names.goal"}, arm()) ==
           Lines{"property 'names.goal': Arm0 has no service port or EventInPort 'goal'; it has none"});
 }

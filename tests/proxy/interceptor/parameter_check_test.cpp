@@ -25,9 +25,11 @@ TEST_CASE("parameters of InterceptorComp with an effect, and those of its manage
 }
 
 TEST_CASE("a parameter of the other side is reported") {
-    CHECK(find_useless_parameters({"wait_ms.goal"}, arm()) ==
-          Lines{"parameter 'wait_ms.goal' has no effect here: it is one of the side that sends; give it to "
-                "AdaptorComp"});
+    CHECK(
+        find_useless_parameters({"wait_ms.goal"}, arm()) ==
+        Lines{
+            "parameter 'wait_ms.goal' has no effect here: it is a setting of the side that sends; give it to "
+            "AdaptorComp"});
 }
 
 TEST_CASE("an unknown parameter of a port is reported, also one of AdaptorComp's") {

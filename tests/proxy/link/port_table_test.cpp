@@ -195,10 +195,14 @@ TEST_CASE("settings of missing ports and settings of the other side are reported
     CHECK(find_settings_without_port({"deadline_ms.gaol"}, table, of_owner) ==
           Lines{"parameter 'deadline_ms.gaol': Arm0 has no data port 'gaol'; it has goal, state; it counts "
                 "when the port is added"});
-    CHECK(find_settings_without_port({"wait_ms.goal"}, table, of_owner) ==
-          Lines{"parameter 'wait_ms.goal' has no effect here: it is one of the side that sends; give it to "
-                "Peer"});
-    CHECK(find_settings_without_port({"deadline_ms.goal"}, table, of_peer) ==
-          Lines{"property 'deadline_ms.goal' has no effect here: it is one of the side that receives; give "
-                "it to Owner"});
+    CHECK(
+        find_settings_without_port({"wait_ms.goal"}, table, of_owner) ==
+        Lines{
+            "parameter 'wait_ms.goal' has no effect here: it is a setting of the side that sends; give it to "
+            "Peer"});
+    CHECK(
+        find_settings_without_port({"deadline_ms.goal"}, table, of_peer) ==
+        Lines{
+            "property 'deadline_ms.goal' has no effect here: it is a setting of the side that receives; give "
+            "it to Owner"});
 }

@@ -156,7 +156,7 @@ TEST_CASE("values beyond the receiver's bounds are refused with the field's name
     const auto price = encoded([](CdrWriter& out) { out.put_string("-123.45"); });
     CHECK(converted("s", "F5,2", "", price) == price);
     CHECK_THAT(refusal("s", "F4,2", "", price), Contains("a decimal number of at most 4 digits"));
-    CHECK_THAT(refusal("s", "F5,1", "", price), Contains("1 behind the point"));
+    CHECK_THAT(refusal("s", "F5,1", "", price), Contains("1 after the point"));
     CHECK_FALSE(refusal("s", "F5,2", "", text).empty());
 }
 

@@ -74,7 +74,7 @@ TEST_CASE("a decimal number is a fixed if it needs no rounding") {
     for (const char* text : {"", ".", "-", "1234", "1.234", "1,5", "1e2", "0x1", " 1", "1.2.3", "--1"})
         CHECK_FALSE(is_fixed(text, type));
     CHECK(why_not_fixed("1.234", type) ==
-          "is '1.234': expected a decimal number of at most 5 digits, 2 behind the point");
+          "is '1.234': expected a decimal number of at most 5 digits, 2 after the point");
 }
 
 TEST_CASE("a signature that would take much more memory than its text is refused with the limit") {

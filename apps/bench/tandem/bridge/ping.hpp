@@ -135,7 +135,7 @@ class PingClient {
     template <class Port>
     void ping_for_a_slice(Port& port) {
         const std::uint64_t end = ticks() + to_ticks(cold_ && !measures_ping_ ? 10 * slice_ns : slice_ns);
-        // No answer in this slice: the next one sends a new ping. In cold cases, the next tick always does.
+        // If no answer arrives in this slice, the next slice sends a new ping. In cold cases, the next tick always does.
         while (!samples_.done() && ticks() < end && ping_on_road(port, end) && !(cold_ && measures_ping_)) {
         }
     }

@@ -32,7 +32,7 @@ Paths distinct(const Paths& files) {
 }
 
 // Returns the sources that define members of the class or use its static ones. None for a class in a function or template,
-// whose name is no plain one.
+// which has no plain name.
 Paths with_members_of(const Paths& files, const std::string& name) {
     static const std::regex plain_name("(?:\\w+::)*(\\w+)");
     std::smatch names;

@@ -171,7 +171,7 @@ class Interpreter {
         if (command.name == "add_definitions" || command.name == "add_compile_definitions")
             add_definitions(command);
         else if (const auto macro = macros_.find(command.name); macro != macros_.end())
-            call(Macro(macro->second), words); // a copy, because the body may define it anew
+            call(Macro(macro->second), words); // a copy, because the body may redefine it
         else if (!words.empty())
             run_command(command.name, words);
     }

@@ -40,7 +40,7 @@ bool is_xml(const std::filesystem::path& file);
 /// for other names.
 std::string idl_of_header(const std::filesystem::path& header);
 
-/// Returns whether the path is that of a file. If it cannot be looked at, it counts as none.
+/// Returns whether the path is that of a file. If it cannot be read, it counts as none.
 bool is_file(const std::filesystem::path& path);
 
 /// Returns the files in a folder, sorted; none if the folder does not exist.

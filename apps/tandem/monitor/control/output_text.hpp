@@ -9,10 +9,10 @@ namespace tandem::monitor {
 /// Returns the size in bytes.
 std::size_t size_of(int file);
 
-/// Returns so many bytes from `begin`, without control characters and as valid UTF-8.
+/// Returns up to `size` bytes from `begin`, without control characters and as valid UTF-8.
 std::string text_in(int file, std::size_t size, std::size_t begin = 0);
 
-/// Returns the last lines, at most so many bytes of them.
+/// Returns the last lines, with at most `most` bytes in total.
 std::string last_lines(int file, std::size_t most);
 
 } // namespace tandem::monitor

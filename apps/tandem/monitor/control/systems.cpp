@@ -28,7 +28,7 @@ constexpr off_t max_log = 16 << 20;
 const std::string& require_name(const std::string& name) {
     try {
         shm::check_link_name(name);
-    } catch (const shm::Error&) { // whose text has the name, which a client has sent
+    } catch (const shm::Error&) { // its text would contain the name that a client has sent
         throw std::invalid_argument(
             "expected a name of 1 to 64 characters of A-Z a-z 0-9 _ -, the first not -");
     }

@@ -21,7 +21,7 @@ class Systems {
 
     /// `program`: path of tandem. Throws std::runtime_error if the folder does not exist.
     Systems(const std::filesystem::path& folder, std::string program);
-    ~Systems(); ///< ends the runs in order
+    ~Systems(); ///< ends the runs cleanly
 
     /// Return the command that lists the folder, writes a new system, or saves the hosts with these process ids.
     std::vector<std::string> list_command() const;
@@ -30,8 +30,8 @@ class Systems {
     std::vector<std::string> save_command(const std::string& name, const std::vector<std::string>& hosts,
                                           bool replace) const;
 
-    /// Starts `tandem run` with the log NAME/run.log. Throws std::invalid_argument also if it runs, also if another monitor
-    /// has started it, or if max_runs run.
+    /// Starts `tandem run` with the log NAME/run.log. Also throws std::invalid_argument if it already runs (even if another
+    /// monitor has started it), or if max_runs systems run.
     void start(const std::string& name);
     /// Asks a run to end. Throws std::invalid_argument if it does not run.
     void stop(const std::string& name);

@@ -73,7 +73,7 @@ class Channels {
     std::function<const State&()> state_;
     std::set<ChannelClient*> clients_;
     std::map<std::string, command::LinkFollower> followers_;
-    std::string first_;                    ///< link that the next look begins with
+    std::string first_;                    ///< link at which the next pass begins
     std::map<Key, std::uint32_t> numbers_; ///< kept when a channel disappears, for its return
     std::map<std::uint32_t, nlohmann::json> channels_;
     std::uint64_t told_ms_ = 0; ///< time of the last State that clients were told about

@@ -49,7 +49,7 @@ Fields rest(const Fields& fields, std::size_t from) {
     return {fields.begin() + static_cast<std::ptrdiff_t>(from), fields.end()};
 }
 
-/// Returns false if the line is no part.
+/// Returns false if the line does not describe a part.
 bool add_part(const Fields& fields, HostInventory& inventory, std::vector<Connection>& connections) {
     const std::string& kind = fields[0];
     if (kind == "component" && fields.size() >= 5)

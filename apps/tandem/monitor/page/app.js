@@ -31,7 +31,7 @@ function keptPlace() {
   try {
     return decodeURIComponent(location.hash.slice(1));
   } catch (error) {
-    if (error instanceof URIError) return ''; // an address that somebody has typed
+    if (error instanceof URIError) return ''; // an address that a user has typed
     throw error;
   }
 }

@@ -107,7 +107,7 @@ export class ControlPanel {
     find('token-form').hidden = open || !this.allowed;
     if (open) sessionStorage.setItem('tandem-token', this.token);
     else if (this.connection.refused) {
-      this.token = ''; // asking again would be in vain: each start of the monitor has another token
+      this.token = ''; // asking again would be useless: each start of the monitor has another token
       sessionStorage.removeItem('tandem-token');
     }
     const refused = !open && this.connection.refused;

@@ -101,7 +101,7 @@ export class Track {
     this.size = mostSamples;
   }
 
-  /** What came before the clock was set back lies in the future now. */
+  /** Messages that came before the clock was set back are in the future now. */
   forgetAll() {
     Object.assign(this, {size: 0, sequence: 0});
     this.kinds.clear();
@@ -191,7 +191,7 @@ export class SampleStore {
     if (this.tracks.has(key)) this.pictures.set(key, picture);
   }
 
-  /** Returns the monitor's time in ms, which goes on between messages. */
+  /** Returns the monitor's time in ms, which continues between messages. */
   now() {
     return this.skew ? performance.now() + this.skew : Date.now();
   }

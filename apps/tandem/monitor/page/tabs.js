@@ -36,7 +36,7 @@ export class Tabs {
     this.onchange?.(id);
   }
 
-  /** Offers a tab or not. If the shown one is no longer offered, shows the first. */
+  /** Shows or hides a tab. If the current tab is hidden, selects the first. */
   offer(id, offered) {
     const tab = this.tabs.find((each) => each.getAttribute('aria-controls') === id);
     if (tab.hidden === !offered) return;

@@ -14,5 +14,5 @@ export function tellFailure(from, failed, text) {
 }
 
 find('failure').lastElementChild.addEventListener('click', () => tellFailure(shown, false, ''));
-// What the keyboard reaches must not lie behind it.
+// Elements that the keyboard reaches must not be hidden behind it.
 new ResizeObserver(([{target}]) => document.documentElement.style.setProperty('--top', `${target.offsetHeight}px`)).observe(find('top'));

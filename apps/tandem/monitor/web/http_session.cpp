@@ -84,7 +84,7 @@ boost::asio::ip::address local_address(const boost::asio::ip::tcp::socket& socke
     return socket.local_endpoint(ignored).address();
 }
 
-/// A file on its way to a client, which has `write_bound` for each part.
+/// A file that is being sent to a client. Each part must be written within `write_bound`.
 struct Download {
     /// `file`: open, because the serializer takes its size at once.
     explicit Download(http::file_body::value_type file) : response(status::ok, 11, std::move(file)) {}

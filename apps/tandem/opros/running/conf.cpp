@@ -10,7 +10,7 @@ namespace {
 
 using nlohmann::json;
 
-/// NAME=VALUE, as `tandem rtm conf` has it, is NAME and VALUE.
+/// Accepts NAME=VALUE, the form of `tandem rtm conf`, as NAME and VALUE.
 OprosConfOptions split_assignment(OprosConfOptions options) {
     const auto equals = options.name.find('=');
     if (options.value || equals == std::string::npos || equals == 0) return options;

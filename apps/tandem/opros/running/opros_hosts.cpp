@@ -17,7 +17,7 @@ namespace {
 
 using nlohmann::json;
 
-// The host answers at its own limit, which is the same, and says more about the reason.
+// The host has the same time limit. Its own answer at that limit says more about the reason, so it gets extra time.
 constexpr double answer_slack_s = 1;
 
 /// Throws local::NobodyListens, and std::runtime_error if the host does not answer.

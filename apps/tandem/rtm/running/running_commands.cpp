@@ -73,7 +73,7 @@ void run_when_chosen(CLI::App* command, Action& selected, const std::shared_ptr<
     command->callback([=, &selected] { selected = [=] { return run(chosen->client, chosen->options); }; });
 }
 
-// list, tree and info: what is there.
+// list, tree and info: they show components, ports and connections.
 void add_listings(CLI::App& rtm, Action& selected) {
     auto list = std::make_shared<RtmClientOptions>();
     add_running_command(rtm, "list", "Lists running components on this machine and in name servers", *list,

@@ -32,7 +32,7 @@ Json sample_json(const CdrJsonConverter& converter, CORBA::TypeCode_ptr type, co
     }
 }
 
-/// Returns one line that tells why no values arrive and what to do.
+/// Returns one line that says why no values arrive and what to do.
 std::string describe_wait(const RemotePort& port) {
     const std::string component = port.name.substr(0, port.name.rfind('.'));
     std::string state = "does not answer";

@@ -234,7 +234,7 @@ void write_union(DynAny_ptr target, const Json& value, const std::string& path) 
     if (!value.is_object() || !value.contains("case"))
         throw DataConversionError(path + ": expected {\"case\": LABEL, MEMBER: VALUE}");
     DynamicAny::DynUnion_var dyn_union = DynamicAny::DynUnion::_narrow(target);
-    // A copy, because omniORB selects the member only for a discriminator other than the present one.
+    // A copy, because omniORB selects the member only for a discriminator other than the current one.
     const OwnedDynAny discriminator(DynAny_var(dyn_union->get_discriminator())->copy());
     write_value(discriminator.get(), value["case"], path + ".case");
     dyn_union->set_discriminator(discriminator.get());

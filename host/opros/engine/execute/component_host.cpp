@@ -22,7 +22,7 @@ namespace {
 
 // How long a requested transition waits for the current cycle.
 constexpr std::chrono::seconds max_cycle_wait{5};
-// How long a reader of the properties does.
+// How long a reader of the properties waits for it.
 constexpr std::chrono::seconds max_read_wait{1};
 
 } // namespace
@@ -210,13 +210,13 @@ std::string ComponentHost::request(ComponentTransition transition) {
 }
 
 bool ComponentHost::start_again() {
-    if (component_->getStatus() != OPROS_CS_ERROR) return true; // recovered by somebody else
+    if (component_->getStatus() != OPROS_CS_ERROR) return true; // recovered by another caller
     {
         const std::lock_guard lock(last_error_mutex_);
         if (!last_error_.empty()) known_error_ = last_error_;
     }
     if (!request(TRANSITION_RECOVER).empty() || !request(TRANSITION_START).empty()) return false;
-    log::info("component {} has started: the services of the other nodes are there", name_);
+    log::info("component {} has started: the services of the other nodes are available", name_);
     const std::lock_guard lock(last_error_mutex_);
     known_error_.clear(); // the same error is new when it comes later
     return true;

@@ -7,8 +7,8 @@
 
 namespace tandem::engine {
 
-/// Returns the number as ReturnType.h has it (codes of device components are hexadecimal), followed by the name if it has
-/// one: "400 (OPROS_CALLER_ERROR)". [any-thread]
+/// Returns the number as written in ReturnType.h (codes of device components are hexadecimal), followed by the name if it
+/// has one: "400 (OPROS_CALLER_ERROR)". [any-thread]
 std::string describe_code(ReturnType code);
 
 } // namespace tandem::engine

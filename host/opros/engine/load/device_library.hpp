@@ -24,7 +24,7 @@ std::vector<std::filesystem::path> search_dirs(const ComponentProfile& profile,
 std::string nearest_library(const std::string& name, const std::vector<std::filesystem::path>& dirs);
 
 /// Returns which setting a component lacks whose callback has returned the error `code` in this thread: a device library
-/// that does not exist, or the last property that it asked for in vain since forget_absent_property(). Begins with "; ",
+/// that does not exist, or the last missing property that it requested since forget_absent_property(). Begins with "; ",
 /// for the end of a message; empty if neither is missing.
 std::string describe_missing_setting(ReturnType code, PropertyInterface& component,
                                      const ComponentProfile& profile,

@@ -26,7 +26,7 @@ struct NodePart {
 NodePart node_part(ApplicationProfile application, const std::string& node);
 
 /// Returns the components that a check of this machine's files looks at, without composites: the part of `node` or
-/// <local_node_id>, or all components if there is neither. Missing profiles are no error. Throws SetupError for a wrong
+/// <local_node_id>, or all components if there is neither. A missing profile is not an error. Throws SetupError for a wrong
 /// composite or node.
 ApplicationProfile local_application(ApplicationProfile application,
                                      const std::vector<std::filesystem::path>& plugin_dirs,

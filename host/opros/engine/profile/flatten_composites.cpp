@@ -88,10 +88,9 @@ class CompositeFlattener {
         if (std::find(enclosing_files_.begin(), enclosing_files_.end(), file) != enclosing_files_.end())
             throw SetupError(entry.location, "composite " + entry.file.string() + " contains itself");
         if (!entry.properties.empty())
-            throw SetupError(entry.location,
-                             "composite '" + entry.name +
-                                 "' has no properties of its own, give them to its components in " +
-                                 entry.file.string());
+            throw SetupError(entry.location, "composite '" + entry.name +
+                                                 "' cannot have properties; give them to its components in " +
+                                                 entry.file.string());
         ApplicationProfile composite = read_composite_profile(entry.file);
         const std::size_t first_member = flat_.subcomponents.size();
         add_assembly(composite, entry.name + ".", entry.node);

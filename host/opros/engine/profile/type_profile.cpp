@@ -19,7 +19,7 @@ std::size_t parameter_index(const XmlFile& xml, const pugi::xml_node& parameter,
     std::size_t index = default_index;
     const char* const end = text.data() + text.size();
     if (!text.empty() && std::from_chars(text.data(), end, index).ptr != end)
-        xml.fail(parameter, "index of a <param> is '" + text + "', expected a number from 0 on");
+        xml.fail(parameter, "index of a <param> is '" + text + "', expected a number of at least 0");
     return index;
 }
 

@@ -99,7 +99,7 @@ class Utf8Converter {
             const bool failed = iconv(handle_, &in, &left, &to, &room) == std::size_t(-1);
             out.append(chunk, static_cast<std::size_t>(to - chunk));
             if (!failed) break;
-            // A full chunk is no error. But a chunk that is "full" without any output would repeat forever.
+            // A full chunk is not an error. But a chunk that is "full" without any output would repeat forever.
             if (errno == E2BIG && to != chunk) continue;
             all_valid = false;
             out += '?';

@@ -146,7 +146,7 @@ void load_this(iarchive& ar, std::multimap<K, T, C, A>& t) {
     detail::load_map<K, T>(ar, t);
 }
 
-// An element of std::vector<bool> is no bool&.
+// An element of std::vector<bool> is not a bool&.
 inline iarchive& operator>>(iarchive& ar, std::vector<bool>::reference bit) {
     bool value = false;
     ar.load(value);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which types can cross an archive, and by which way: by their own save()/load(), by free save_this()/load_this()
+// Which types can cross an archive, and how: by their own save()/load(), by free save_this()/load_this()
 // found beside the type, by a serialize() for both directions, or as a kind that the archive handles directly.
 #ifndef OPROS_ARCHIVE_SERIALIZABLE_H
 #define OPROS_ARCHIVE_SERIALIZABLE_H

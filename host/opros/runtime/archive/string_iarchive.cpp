@@ -77,7 +77,7 @@ iarchive& string_iarchive::load(bool& value) {
     return *this;
 }
 
-// Any character is written as itself. Only the character after an 'X' tells whether the 'X' is the value or starts a
+// Any character is written as itself. Only the character after an 'X' shows whether the 'X' is the value or starts a
 // hexadecimal form.
 #define OPROS_LOAD_CHARACTER(type)                                                                           \
     iarchive& string_iarchive::load(type& value) {                                                           \

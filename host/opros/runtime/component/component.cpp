@@ -12,7 +12,7 @@ void Component::setId(std::string id) { m_compId = std::move(id); }
 std::string Component::getId() { return m_compId; }
 
 // Defaults. A component must override onInitialize, onStart, onStop and onDestroy: a transition fails unless its
-// callback returns OPROS_SUCCESS. OPROS_UNSUPPORTED_METHOD from onExecute and onUpdated is no error to the host.
+// callback returns OPROS_SUCCESS. OPROS_UNSUPPORTED_METHOD from onExecute and onUpdated is not an error for the host.
 ReturnType Component::onInitialize() { return OPROS_UNSUPPORTED_METHOD; }
 ReturnType Component::onStart() { return OPROS_UNSUPPORTED_METHOD; }
 ReturnType Component::onStop() { return OPROS_UNSUPPORTED_METHOD; }

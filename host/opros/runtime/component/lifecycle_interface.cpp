@@ -100,7 +100,7 @@ ReturnType LifecycleInterface::destroy() {
     return OPROS_SUCCESS;
 }
 
-// Calls the three callbacks in a row in any state, as LifecycleInterface.h specifies.
+// Calls the three callbacks one after the other in any state, as LifecycleInterface.h specifies.
 ReturnType LifecycleInterface::reset() {
     const Transition lock(m_lifecycle->transition);
     if (!succeeded(onReset()) || !succeeded(onInitialize()) || !succeeded(onStart()))

@@ -18,7 +18,7 @@ constexpr int max_values_per_poll = 4096;
 /// A polling consumer rehearses reading the next value after each such number of empty pops.
 constexpr unsigned empty_pops_per_rehearsal = 4096;
 
-/// Returns where a value lies. Of the elements of a vector of numbers, it has the first two lines.
+/// Returns where a value is stored. Of the elements of a vector of numbers, it has the first two lines.
 tandem::rt::CellRing::Parts parts_of(opros_any& value) {
     opros_any::holder_base* const held = value.held();
     if (held == nullptr) return {}; // a port of the component may accept no value

@@ -11,7 +11,7 @@
 
 namespace RTC {
 
-/// The sender's value on its way to a DirectBuffer.
+/// The sender's value while it is passed to a DirectBuffer.
 struct DirectValue {
     const std::type_info& type;
     const void* value;

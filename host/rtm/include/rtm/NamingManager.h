@@ -42,7 +42,7 @@ class NamingManager {
     /// Finds a component by `Name0` (this process), rtcname://HOST:PORT/CONTEXT/Name0 or rtcloc://HOST:PORT/Name0.
     /// Returns an empty list if nothing answers there.
     RTCList string_to_component(const std::string& name);
-    /// Ours: like string_to_component(name), without a log line. `reason` tells why the list is empty. Each call to
+    /// Ours: like string_to_component(name), without a log line. `reason` says why the list is empty. Each call to
     /// another process ends within `timeout_ms`, and so does each later call of the returned component.
     RTCList string_to_component(const std::string& name, std::string& reason, unsigned long timeout_ms);
 

@@ -248,7 +248,7 @@ class RingBuffer : public BufferBase<DataType> {
     bool written_ = false; // since the last reset: readback has a value
     bool reads_once_ = false;
     bool was_read_ = false; // ever
-    // the variable with the only copy of the last value; NULL: the slot has it
+    // the variable with the only copy of the last value; NULL: it is in the slot
     const DataType* taken_by_ = nullptr;
     bool overwrite_ = true;
     bool block_write_ = false;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A function called periodically in a thread of its own; timed by the steady clock, without real-time
-// priority.
+// Calls a function periodically in a separate thread, timed by the steady clock, without real-time priority.
 #include <coil/PeriodicTask.h>
 
 namespace coil {
@@ -48,7 +47,7 @@ int PeriodicTask::suspend() {
     return 0;
 }
 
-// The statistics begin anew.
+// The statistics start again from zero.
 int PeriodicTask::resume() {
     Lock lock(m_mutex);
     // The pause must not count as a long period.

@@ -159,7 +159,7 @@ const std::string& Properties::getDefault(const std::string& key) const {
     return node == nullptr ? empty_string : node->default_value_;
 }
 
-// Returns the former value, as java.util.Properties does.
+// Returns the previous value, as java.util.Properties does.
 std::string Properties::setProperty(const std::string& key, const std::string& value) {
     Properties& node = getNode(key);
     std::string former = node.value_;

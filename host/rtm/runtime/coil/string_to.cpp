@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The conversions from text that operator>> does not do as configuration files need them: whole strings,
-// words for bool, durations.
+// The conversions from text for which operator>> does not suit configuration files: whole strings, words
+// for bool, durations.
 #include <cmath>
 #include <coil/stringutil.h>
 

@@ -17,8 +17,8 @@ namespace {
 // Without vertical tab and form feed, which std::isspace() would add.
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 
-// While an object exists, this thread writes numbers as in the classic locale, whichever setlocale() a component has
-// called. Letters keep their locale.
+// While an object exists, this thread writes numbers as in the classic locale, even if a component has called
+// setlocale(). Letters keep their locale.
 class ClassicNumbers {
   public:
     ClassicNumbers() {

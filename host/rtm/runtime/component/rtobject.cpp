@@ -144,7 +144,7 @@ void deactivate_participants(ExecutionContextBase& context) {
 
 // Leaves composites, stops the component's own contexts, leaves the contexts of other components, and finalizes. Calls
 // after the first return at once. A context that does not stop is still in a callback of this component; the component
-// then remains as it is.
+// then remains unchanged.
 ReturnCode_t RTObject_impl::exit() {
     require_permission();
     if (m_created) return PRECONDITION_NOT_MET;

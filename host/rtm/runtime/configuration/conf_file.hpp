@@ -12,7 +12,7 @@ namespace RTC {
 std::string printable(const std::string& text);
 
 /// Reads a file of `key: value` lines (`#` begins a comment, `\` at the end continues a line) into `out`, and
-/// the origin of each setting into `origins`. Throws ManagerError with file and line when a line is no
+/// the origin of each setting into `origins`. Throws ManagerError with file and line when a line is not a
 /// setting, when the file is not regular text of at most 1 MB, or when it has more than 10,000 settings.
 void read_conf_file(const std::filesystem::path& file, coil::Properties& out,
                     SettingOrigins* origins = nullptr);

@@ -21,8 +21,8 @@ std::string instance_name(coil::Properties& sets) {
     return root == nullptr ? "" : root->getProperty("instance_name");
 }
 
-// Returns whether the set has this parameter. The name may have dots, and then is a path of nodes. A node that only
-// others are below is no parameter.
+// Returns whether the set has this parameter. The name may have dots, and then is a path of nodes. A node that has
+// only child nodes is not a parameter.
 bool has_parameter(const coil::Properties& set, const std::string& name) {
     const coil::Properties* node = set.findNode(name);
     return node != nullptr &&

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parts common to all execution contexts, but for the cycle (execution_cycle.cpp): options, start and
-// stop, participants, profile.
+// The parts common to all execution contexts, except the cycle (execution_cycle.cpp): options, start and stop,
+// participants, profile.
 #include "host/crash/callback_scope.hpp"
 #include "host/process/published/inventory.hpp"
 #include "host/rtm/runtime/execution/rt_object_state_machine.hpp"

@@ -66,7 +66,7 @@ PeriodicExecutionContext::TickStatistics PeriodicExecutionContext::Worker::tickS
             std::max(previous.max_lateness, std::chrono::nanoseconds(now.lateness_ns_max))};
 }
 
-// Begins a new grid of ticks with the present rate, and keeps the sum of the former ones' statistics. The
+// Begins a new grid of ticks with the current rate, and keeps the sum of the previous grids' statistics. The
 // caller holds the worker's mutex, or the worker is not shared yet.
 void PeriodicExecutionContext::createTick(Worker& worker) {
     if (worker.tick) worker.previous = worker.tickStatistics();
@@ -147,7 +147,7 @@ RTC::ReturnCode_t PeriodicExecutionContext::onStarted() {
     return RTC::RTC_OK;
 }
 
-/// Takes over what other threads have changed. Returns false if the thread is to stop. [context's thread]
+/// Takes over what other threads have changed. Returns false if the thread must stop. [context's thread]
 bool PeriodicExecutionContext::Worker::acceptChange() {
     if (!changed.load(std::memory_order_acquire)) return true;
     std::lock_guard<std::mutex> lock(mutex);
@@ -265,7 +265,7 @@ RTC::ReturnCode_t PeriodicExecutionContext::onSetRate(double) {
     auto running = worker();
     if (running == nullptr) return RTC::RTC_OK;
     std::lock_guard<std::mutex> lock(running->mutex);
-    // The thread may be waiting for a tick of the old rate: interrupted, it goes on with the new one.
+    // The thread may be waiting for a tick of the old rate. The interruption makes it continue with the new one.
     auto old_tick = running->tick;
     createTick(*running);
     running->changed = true;

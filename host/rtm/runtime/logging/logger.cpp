@@ -47,7 +47,7 @@ Outputs& outputs() {
     return *the_outputs;
 }
 
-// The present local time. `format` has the codes of strftime(), and %Q for milliseconds, %q for microseconds,
+// The current local time. `format` has the codes of strftime(), and %Q for milliseconds, %q for microseconds,
 // as in OpenRTM-aist.
 std::string format_time(std::string format) {
     timespec t;

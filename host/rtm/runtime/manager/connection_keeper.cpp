@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Supervision of connections with other processes. OpenRTM-aist has none: it finds a dead peer when somebody
-// asks for a port's profile (PortBase::updateConnectors(), checkPorts()), and tries a preconnect entry once.
+// Supervision of connections with other processes. OpenRTM-aist has none: it finds a dead peer when a caller requests a
+// port's profile (PortBase::updateConnectors(), checkPorts()), and tries a preconnect entry once.
 #include "host/rtm/runtime/manager/connection_keeper.hpp"
 #include "host/process/start_thread.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"

@@ -7,7 +7,7 @@ namespace RTC {
 namespace {
 
 constexpr const char* module_keys[] = {"manager.preload.modules",
-                                       "manager.modules.preload"}; // the former is of 1.x
+                                       "manager.modules.preload"}; // 1.x has the first form
 
 struct ModuleEntry {
     std::string name, init_function; // the latter may be empty

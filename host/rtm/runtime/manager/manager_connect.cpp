@@ -96,8 +96,9 @@ void Manager::Impl::activate(RTObject_impl& component) {
                  name.c_str(), ExecutionContextBase::getStateString(state),
                  context->isRunning() ? "runs" : "does not run"));
         } else if (running && is_transition_callback(running->name)) {
-            RTC_WARN(("%s is still activating: %s has taken %.1f s so far; the host goes on and logs its end",
-                      name.c_str(), running->name, running->seconds()));
+            RTC_WARN(
+                ("%s is still activating: %s has taken %.1f s so far; the host continues and logs its end",
+                 name.c_str(), running->name, running->seconds()));
             slow_transitions.expect_end(component);
         } else if (state == INACTIVE_STATE) {
             RTC_WARN(("%s is still INACTIVE: its execution context has not begun the activation, its thread "

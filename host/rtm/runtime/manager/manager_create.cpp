@@ -195,7 +195,7 @@ std::shared_ptr<FactoryBase> Manager::Impl::require_factory(Manager& manager, co
 
 namespace {
 
-// Throws ManagerError for a rate of a context that is no number in range: a controller must not run at another rate.
+// Throws ManagerError for a rate of a context that is not a number in range: a controller must not run at another rate.
 void require_rates(const coil::Properties& settings, const std::string& name) {
     for (const auto& key : settings.propertyNames()) {
         const ConfKey* known = key.ends_with("rate") ? find_conf_key(key) : nullptr;

@@ -72,7 +72,7 @@ void Manager::Impl::wait_for_end_at_exit() {
     std::atexit([] {
         Impl& impl = Manager::instance().impl();
         std::unique_lock<std::recursive_mutex> lock(impl.mutex);
-        // A component that calls exit() cannot wait for its own end, and a set-up does not go on after exit().
+        // A component that calls exit() cannot wait for its own end, and a set-up does not continue after exit().
         if (!impl.end_requested || impl.setting_up) return;
         if (impl.must_return_first() || impl.main_loop != std::thread::id()) return;
         const auto limit = 2 * host_options().stop_timeout;

@@ -90,7 +90,7 @@ struct Manager::Impl {
 
     RTM::ManagerActionListeners listeners;
 
-    /// Returns a copy of the present settings: tools change them while components are created from them.
+    /// Returns a copy of the current settings: tools change them while components are created from them.
     coil::Properties config_snapshot() const;
     std::string setting(const std::string& key) const;
     /// Applies a setting that a tool makes. Returns false if the key cannot have the value.

@@ -188,7 +188,7 @@ bool Manager::registerECFactory(const char* name, ECNewFunc new_func, ECDeleteFu
 // `TYPE` or `TYPE?key=value...`; the properties are those of init(), which the caller calls.
 ExecutionContextBase* Manager::createContext(const char* ec_args) {
     const std::string args(ec_args);
-    // In lock-step mode no context may have a thread, whichever type a component asks for. Only Manager::step() runs
+    // In lock-step mode no context may have a thread, even if a component requests another type. Only Manager::step() runs
     // its cycles.
     const std::string type = m_impl->options.lockstep ? "SynchExtTriggerEC" : args.substr(0, args.find('?'));
     std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);

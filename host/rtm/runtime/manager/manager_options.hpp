@@ -24,9 +24,9 @@ struct HostOptions {
     std::function<void(std::string step)> on_setup_step;
     std::vector<std::filesystem::path> plugin_path;    ///< searched after manager.modules.load_path
     std::optional<tandem::plugin::ProbeOptions> probe; ///< modules are loaded in a child process first
-    /// The program's name, if crashes are to be reported (host/crash); NULL: the program's own signal handlers stay.
+    /// The program's name, if it reports crashes (host/crash); NULL: the program's own signal handlers stay.
     const char* crash_report = nullptr;
-    bool can_restart = false; ///< the program starts anew when Manager::restartRequested() is true
+    bool can_restart = false; ///< the program restarts when Manager::restartRequested() is true
 };
 
 struct Manager::Options : HostOptions {};
@@ -35,7 +35,7 @@ struct Manager::Options : HostOptions {};
 HostOptions host_options();
 
 /// Returns what did not return when the manager was shut down, for example `onExecute of Camera0, its destructor of
-/// Arm0`. Empty if everything ended in order. [any-thread]
+/// Arm0`. Empty if everything ended cleanly. [any-thread]
 std::string left_behind(Manager& manager);
 
 /// Ends the manager in the calling thread, even during its set-up, for a program whose set-up hangs. Returns the result of

@@ -17,7 +17,7 @@ namespace RTC {
 namespace {
 
 // Returns for example `onExecute of Camera0`. The name of the callback is missing if none of the component's callbacks
-// is running, but for instance one of another component in its execution context.
+// is running, for instance while one of another component in its execution context runs.
 std::string callback_text(const RTObject_impl* component, const std::string& name) {
     const auto running = tandem::crash::find_running_callback(component);
     return (running ? std::string(running->name) : "a callback") + " of " + name;
@@ -131,7 +131,7 @@ void Manager::Impl::run_destructors(
 
 void Manager::Impl::leave_behind(const std::string& what) {
     Logger& rtclog = log;
-    RTC_ERROR(("%s does not return; the host goes on without waiting for it", what.c_str()));
+    RTC_ERROR(("%s does not return; the host continues without waiting for it", what.c_str()));
     std::lock_guard<std::recursive_mutex> lock(mutex);
     left_behind.push_back(what);
 }
@@ -157,7 +157,7 @@ bool Manager::Impl::end_in_order(Manager& manager) {
     }
     destroy(exited);
 
-    // The connectors are gone, but a message may still be on its way to a process that hangs or cannot be reached, and a
+    // The connectors are gone, but a message may still be in transit to a process that hangs or cannot be reached, and a
     // service call of another process may still run.
     const bool all_sent = sending_threads_end_within(host_options().stop_timeout);
     if (!all_sent) leave_behind("a call to or from another process");

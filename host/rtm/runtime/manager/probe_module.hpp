@@ -13,7 +13,7 @@ constexpr char module_probe_task[] = "load-rtm";
 class ModuleProbes {
   public:
     explicit ModuleProbes(const tandem::plugin::ProbeOptions& options);
-    /// Starts to try the module, while the host goes on.
+    /// Starts to try the module, while the host continues.
     void begin(const std::string& library, const std::string& init);
     /// Waits for the end of the trial. Logs a warning for a destructor that does not return. Throws
     /// tandem::plugin::Error for a crash, a hang or any other failure.

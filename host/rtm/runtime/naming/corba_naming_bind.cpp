@@ -72,7 +72,7 @@ auto rebind_context(CosNaming::NamingContext_ptr context) {
 
 } // namespace
 
-// bind throws AlreadyBound if the name is in use. rebind replaces the present object.
+// bind throws AlreadyBound if the name is in use. rebind replaces the bound object.
 void CorbaNaming::bind(const CosNaming::Name& name, CORBA::Object_ptr obj, bool force) {
     bind_name(m_rootContext.in(), name, force, bind_object(obj));
 }

@@ -18,7 +18,7 @@ class NameBindings {
     /// Binds the object in every server, creating the contexts of the path (`host.host_cxt/Name0.rtc`), and
     /// replaces another object of that name. Returns one message for each server that fails.
     std::vector<std::string> bind(const std::string& path, CORBA::Object_ptr object);
-    /// Adds a server; update() binds the present names in it.
+    /// Adds a server; update() binds the current names in it.
     void add_server(const std::string& server);
     /// Sets the function that add_server() calls for the first server. Call this before other threads start.
     void set_on_first_server(std::function<void()> on_first_server) {

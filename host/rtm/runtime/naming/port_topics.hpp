@@ -35,7 +35,7 @@ class PortTopics {
 
         std::string path() const { return context + "/" + name + "." + kind; }
     };
-    /// One look for other ports. Names of machines that are switched off stay in name servers, and each would cost a
+    /// One search for other ports. Names of machines that are switched off stay in name servers, and each would cost a
     /// time-out.
     struct Search {
         std::vector<std::string>& lines;

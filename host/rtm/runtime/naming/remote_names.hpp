@@ -49,7 +49,7 @@ struct RemoteName {
 };
 RemoteName parse_remote_name(const std::string& name);
 
-/// `HOST` -> `HOST:port`; an address with a port is returned as it is.
+/// `HOST` -> `HOST:port`; an address with a port is returned unchanged.
 std::string with_default_port(const std::string& address, int port);
 
 // All functions below: [any-thread]; they call another process and wait up to `milliseconds` for each call.

@@ -153,7 +153,7 @@ CORBA::Boolean note_remote_request(omni::omniInterceptors::serverReceiveRequest_
     refusal = std::string(operation) + " by another machine, " + peer +
               ": only processes of this user may; " +
               (loads ? "manager.modules.remote_load" : "manager.remote_shutdown") +
-              ": YES in rtc.conf permits it to all who can connect";
+              ": YES in rtc.conf permits it to every client that can connect";
     return true;
 }
 

@@ -26,7 +26,7 @@ ConnectionLimits read_connection_limits(const coil::Properties& config);
 void set_connection_limits(const ConnectionLimits& limits);
 const ConnectionLimits& connection_limits();
 
-/// Threads for the connections that have none of their own.
+/// Threads for the connections without a separate thread.
 inline constexpr int shared_threads = 32;
 
 /// Returns omniORB's options that bound the threads of connections.

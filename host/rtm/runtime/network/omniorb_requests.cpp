@@ -2,14 +2,14 @@
 // Replaces five functions of omniORB 4.2 and 4.3, which calls them through the dynamic symbol table. That finds the
 // definitions in this library first.
 //
-// GIOP_S_Holder is the request that a thread serves. If an exception that is none of CORBA ends a request before its
+// GIOP_S_Holder is the request that a thread serves. If an exception that is not a CORBA exception ends a request before its
 // arguments are read, omniORB reports success and keeps the message: the thread serves it again, without end, also after
 // the peer has gone. Such exceptions are its own failed assertions (the object key "\0", an address of kind 1 or 2 in
 // GIOP 1.2) and the end of a fragmented request by a CancelRequest.
 //
 // giopStream::ensureSaneHeader() reads the header of a message. A size of 2^32 - 12 wraps to 0, and omniORB then splits
-// the message into empty ones until the memory is used up. A fragment larger than its buffer, whose size is no multiple
-// of 8, makes the copy of a long sequence continue without end.
+// the message into empty ones until the memory is used up. A fragment larger than its buffer, whose size is not a
+// multiple of 8, makes the copy of a long sequence continue without end.
 //
 // giopStrand::safeDelete() releases the socket of a connection. When the ORB ends, omniORB gives each connection that has no
 // dedicated thread another worker, even if one still waits for a thread. If both workers find that the connection is refused,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Only the reference tells where a peer runs, because processes of OpenRTM-aist set no property of Tandem.
+// Only the reference shows where a peer runs, because processes of OpenRTM-aist set no property of Tandem.
 #include "host/rtm/runtime/network/peer_machine.hpp"
 
 #include <algorithm>

@@ -17,7 +17,7 @@ struct ArrivingMessage {
     bool is_complete; ///< it has arrived, and no fragment follows
 };
 
-/// Starts the next request of this thread. `shares_thread`: the connection has no thread of its own, and its data has
+/// Starts the next request of this thread. `shares_thread`: the connection has no separate thread, and its data has
 /// begun to arrive, so that the wait for the header is bounded too.
 void begin_request(omni::GIOP_S& request, bool shares_thread);
 

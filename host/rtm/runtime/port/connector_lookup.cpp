@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The functions of InPortBase and OutPortBase that find connectors and add listeners. Both are public classes
-// of OpenRTM-aist without a common base for data ports, hence one macro that defines them for each.
+// The functions of InPortBase and OutPortBase that find connectors and add listeners. Both are public classes of
+// OpenRTM-aist without a common base for data ports, so one macro defines the functions for each.
 #include "host/rtm/runtime/transport/in_port_connectors.hpp"
 #include <rtm/InPortBase.h>
 #include <rtm/OutPortBase.h>

@@ -21,7 +21,7 @@ SignatureRegistry& signature_registry() {
     return *instance;
 }
 
-// IDL:omg.org/M/I:1.0 -> omg.org/M/I; a name that is not a repository id stays as it is.
+// IDL:omg.org/M/I:1.0 -> omg.org/M/I; a name that is not a repository id stays unchanged.
 std::string repository_path(const std::string& id) {
     const std::size_t begin = id.compare(0, 4, "IDL:") == 0 ? 4 : 0;
     const std::size_t end = begin == 0 ? id.size() : id.rfind(':');

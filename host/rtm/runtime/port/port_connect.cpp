@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The connection protocol of the OMG RTC specification's introspection services, as OpenRTM-aist does it:
 // connect() and disconnect() call the first port of the profile, and each port passes notify_connect() or
-// notify_disconnect() on to the next one. The profile collects on its way what the ports publish.
+// notify_disconnect() on to the next one. Each port on the profile's way adds to it what the port publishes.
 #include "host/rtm/runtime/manager/manager_impl.hpp"
 #include "host/rtm/runtime/naming/local_object.hpp"
 #include "host/rtm/runtime/naming/remote_names.hpp"

@@ -168,7 +168,7 @@ void ComponentObserver::observe_configuration() {
             [tell, event = event](const char* set) { tell(event, set); });
 }
 
-// The hint is the state and the name of the action, as PreFsmActionListener::toString() has it.
+// The hint is the state and the name of the action, as PreFsmActionListener::toString() returns it.
 void ComponentObserver::observe_fsm() {
     using Pre = PreFsmActionListenerType;
     for (const auto type :

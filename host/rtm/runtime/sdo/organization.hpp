@@ -16,7 +16,7 @@ class Organizations {
     OrganizationList* list() const;
     /// Returns false if the reference is nil or already in the set.
     bool add(Organization_ptr organization);
-    /// Removes the organization with this id, and calls the organizations for their ids. Returns false if none has it.
+    /// Removes the organization with this id, and calls the organizations for their ids. Returns false if none matches.
     bool remove(const std::string& id);
     /// Removes the member `id` from all organizations and empties the set. Unreachable ones are skipped.
     void leave_all(const std::string& id);

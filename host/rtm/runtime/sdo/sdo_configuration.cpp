@@ -58,7 +58,7 @@ void Configuration_impl::retire() {
     }
 }
 
-// Device profiles are not supported, and false tells the tool so.
+// Device profiles are not supported; the result false reports this to the tool.
 CORBA::Boolean Configuration_impl::set_device_profile(const DeviceProfile&) { return false; }
 // A tool offers a service, and the component gets a consumer for it.
 CORBA::Boolean Configuration_impl::add_service_profile(const ServiceProfile& profile) {

@@ -74,7 +74,7 @@ void SdoServices::start_providers() {
     }
 }
 
-// Without the mutex, like release_tools(). All links to tools end at a time, because a tool that hangs takes seconds.
+// Without the mutex, like release_tools(). All links to tools end at the same time, because a tool that hangs takes seconds.
 void SdoServices::finalize() {
     std::vector<SdoServiceProviderBase*> providers;
     std::vector<SdoServiceConsumerBase*> consumers;

@@ -92,7 +92,7 @@ void leave_context(RTC::ExecutionContext_ptr context, RTC::RTObject_ptr componen
         if (context->get_component_state(component) == RTC::ERROR_STATE) context->reset_component(component);
         context->remove_component(component);
     } catch (const CORBA::SystemException&) {
-        return; // the process of the context has just ended; the others go on
+        return; // the process of the context has just ended; the others continue
     }
 }
 

@@ -42,7 +42,7 @@ class ToolLink {
     /// Lets the thread make the calls that wait, for 2 s at most and one call, and then end. Runs no more tasks. Does not
     /// wait.
     void request_end();
-    /// Does the same and waits for the end of the thread, which may still call send().
+    /// Calls request_end() and waits for the end of the thread, which may still call send().
     void finish();
 
     /// `operation` is a literal. Drops the call if the tool is lost or 1000 calls wait.

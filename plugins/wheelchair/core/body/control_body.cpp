@@ -15,8 +15,8 @@ ControlParameters control_parameters(const Settings& settings) {
 }
 
 /// Waits between two polls of the port. Without a pause, a sender would almost always find the port's lock taken by this
-/// poller. Returns the longest time between two looks at the clock [s]: it is long only if the core was taken away, by
-/// another thread, an interrupt or the hypervisor.
+/// poller. Returns the longest time between two readings of the clock [s]: it is long only if the core was taken away,
+/// by another thread, an interrupt or the hypervisor.
 double pause_between_polls() {
     constexpr double pause_seconds = 3e-7;
     double now = monotonic_seconds(), longest = 0.0;

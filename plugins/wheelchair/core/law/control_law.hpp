@@ -12,8 +12,8 @@ namespace tandem::wheelchair {
 enum class ControlState { run = 0, stale = 1, emergency_stop = 2, fault = 3 };
 
 /// Speed-ratio control of two drive wheels (docs/wheelchair.md, section 6). The voltage difference controls the ratio
-/// of the wheel speeds and thus the curve, so it is limited first; the mean voltage gets the rest. If the voltage is
-/// insufficient, the chair slows down but stays on its curve.
+/// of the wheel speeds, and so the curve; it is therefore limited first; the mean voltage gets the rest. If the
+/// voltage is insufficient, the chair slows down but stays on its curve.
 class ControlLaw {
   public:
     explicit ControlLaw(const ControlParameters& parameters = {}) : parameters_(parameters) {}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files of recordings: they replace no file, have one writer, and end in order when there is no more room.
+// Files of recordings: they replace no file, have one writer, and end cleanly when there is no more room.
 #include "apps/tandem/mcap/check_file.hpp"
 #include "apps/tandem/mcap/reader.hpp"
 #include "apps/tandem/mcap/writer.hpp"

@@ -50,14 +50,14 @@ TEST_CASE("a side that dies and starts again in a new generation causes two even
                                      "the RTM host rtm_host (pid 33) has started again"});
 }
 
-TEST_CASE("a side that dies is a failure, and a side that ends in order is not") {
+TEST_CASE("a side that dies is a failure, and a side that ends cleanly is not") {
     LinkState ended = sound_link(), gone = sound_link();
     ended.sides[1].state = PeerState::dead;
     ended.sides[1].left = true;
-    CHECK(texts(sound_link(), ended) == Texts{"the RTM host rtm_host (pid 22) has ended in order"});
+    CHECK(texts(sound_link(), ended) == Texts{"the RTM host rtm_host (pid 22) has ended cleanly"});
     gone.sides[1].state = PeerState::absent;
     gone.sides[1].gone = gone.sides[1].left = true;
-    CHECK(texts(sound_link(), gone) == Texts{"the RTM host rtm_host (pid 22) has ended in order"});
+    CHECK(texts(sound_link(), gone) == Texts{"the RTM host rtm_host (pid 22) has ended cleanly"});
     CHECK(texts(ended, gone).empty());
 }
 
@@ -67,7 +67,7 @@ TEST_CASE("after a restart between two states, the event says how the previous p
     CHECK(texts(sound_link(), again) == Texts{"!the RTM host rtm_host (pid 22) has died",
                                               "the RTM host rtm_host (pid 33) has started again"});
     again.sides[1].previous_left = true;
-    CHECK(texts(sound_link(), again) == Texts{"the RTM host rtm_host (pid 22) has ended in order",
+    CHECK(texts(sound_link(), again) == Texts{"the RTM host rtm_host (pid 22) has ended cleanly",
                                               "the RTM host rtm_host (pid 33) has started again"});
 }
 

@@ -117,7 +117,7 @@ TEST_CASE("a side whose peer joins the next generation is gone until it returns"
     CHECK_FALSE(next_with(page, "well", 40).is_null());
 }
 
-TEST_CASE("a side that leaves in order has ended, also when its peer has joined the next generation") {
+TEST_CASE("a side that leaves cleanly has ended, also when its peer has joined the next generation") {
     const Link link;
     auto first = join(link, Side::first), second = join(link, Side::second);
     first->publish();
@@ -132,8 +132,8 @@ TEST_CASE("a side that leaves in order has ended, also when its peer has joined 
     const auto ended = next_with(page, "gone", 5);
     REQUIRE_FALSE(ended.is_null());
     CHECK(ended["links"][0]["sides"]["second"]["ended_in_order"] == true);
-    CHECK_THAT(ended["verdict"]["reason"].get<std::string>(), Catch::Contains("has ended in order"));
-    CHECK_THAT(ended["events"].dump(), Catch::Contains("has ended in order") && !Catch::Contains("has died"));
+    CHECK_THAT(ended["verdict"]["reason"].get<std::string>(), Catch::Contains("has ended cleanly"));
+    CHECK_THAT(ended["events"].dump(), Catch::Contains("has ended cleanly") && !Catch::Contains("has died"));
 }
 
 TEST_CASE("dropped messages change the verdict, and so does a stopped host") {

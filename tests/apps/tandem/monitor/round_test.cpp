@@ -27,7 +27,7 @@ void write_number(const RingHandle& ring, double value) {
 } // namespace
 
 TEST_CASE(
-    "a look that reaches the bound of messages says so, and the next look begins with the other ports") {
+    "a scan that reaches its limit of messages reports this, and the next scan begins with the other ports") {
     const Pair pair;
     const auto rings = add_ports(*pair.first, {"left", "right"});
     StateReader reader({pair.link.name}, nullptr, {.message_bytes = 1});
@@ -41,7 +41,7 @@ TEST_CASE(
     CHECK(ports_with_value(state) == 2);
 }
 
-TEST_CASE("a look without time reads one link, keeps the others as they were, and the next look reads "
+TEST_CASE("a scan without time reads one link, keeps the others as they were, and the next scan reads "
           "another one") {
     const Pair first, second;
     std::vector<std::string> names{first.link.name, second.link.name};

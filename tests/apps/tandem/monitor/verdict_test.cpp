@@ -59,7 +59,7 @@ TEST_CASE("the verdict names what is wrong, and where") {
         link.sides[1].gone = true;
         check(Level::dead, "link chair: the RTM host rtm_host (pid 22) has died");
         link.sides[1].left = true;
-        check(Level::gone, "link chair: the RTM host rtm_host (pid 22) has ended in order");
+        check(Level::gone, "link chair: the RTM host rtm_host (pid 22) has ended cleanly");
     }
     SECTION("a port of a type unknown to the other model") {
         link.shared_ports = {
@@ -223,7 +223,7 @@ TEST_CASE("components that are not active, and what a host does not do, are find
     check(Level::dropping, "rtm_host (pid 22): the tool that observes Arm0 does not answer");
 }
 
-TEST_CASE("what a look could not see, and a recording that has failed, are findings") {
+TEST_CASE("what a scan could not read, and a recording that has failed, are findings") {
     State state = state_of({sound_link()});
     state.cut = "link chair: not all messages were read";
     CHECK(judge(state).level == Level::unseen);

@@ -128,7 +128,7 @@ TEST_CASE("a host ends normally while a tool waits for a transition") {
     Running host("Counter", {"exec_cxt.periodic.rate:0.01", "exec_cxt.activation_timeout:1000"});
     REQUIRE(host.other.host.wait_for_output("ready\n"));
     std::thread tool([&] { host.run({"activate", "Counter0", "--timeout", "60"}); });
-    // The request has usually arrived by then. If not, the host ends in order anyway.
+    // The request has usually arrived by then. If not, the host ends cleanly anyway.
     std::this_thread::sleep_for(std::chrono::seconds(2));
     host.other.host.send_signal(SIGTERM);
     CHECK(host.other.host.wait_for_exit() == 0);

@@ -215,7 +215,7 @@ TEST_CASE("signals within one second are one request to stop and everything is s
     CHECK_THAT(host.output, Catch::Contains("M is gone\n"));
 }
 
-TEST_CASE("a host whose log is no longer read keeps running, and ends in order") {
+TEST_CASE("a host whose log is no longer read keeps running, and ends cleanly") {
     const Folder folder;
     signal(SIGPIPE, SIG_DFL); // what the host inherits
     Process host({OPROS_HOST, "--plugin-path", FIXTURES, one_component(folder, "maker")});

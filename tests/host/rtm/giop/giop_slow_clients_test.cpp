@@ -61,7 +61,7 @@ TEST_CASE("Connections that wait for a thread that closes them are bounded") {
     CHECK(serves_newcomers(other.port));
 }
 
-TEST_CASE("A host ends in order while connections wait for a thread that closes them") {
+TEST_CASE("A host ends cleanly while connections wait for a thread that closes them") {
     setenv("MALLOC_PERTURB_", "90", 1); // what uses freed memory crashes
     RemoteHost other("Counter", unused_port(), {"corba.max_connections:20", shared_threads_only(2)});
     unsetenv("MALLOC_PERTURB_");

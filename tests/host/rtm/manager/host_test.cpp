@@ -39,7 +39,7 @@ std::string refusal(const std::string& conf) {
 
 } // namespace
 
-TEST_CASE("rtm_host runs what rtc.conf names, and a signal ends it in order") {
+TEST_CASE("rtm_host runs what rtc.conf names, and a signal ends it cleanly") {
     const int signal = GENERATE(SIGINT, SIGTERM, SIGHUP);
     Folder folder;
     HostProcess host({"-f", folder.conf(pair_conf)});

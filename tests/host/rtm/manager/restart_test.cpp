@@ -150,7 +150,7 @@ TEST_CASE("A service can be called again when its process was killed and restart
     restart("CalculatorProvider", port, {activation}, answers, left);
 }
 
-TEST_CASE("A host ends in order however many of its peers hang") {
+TEST_CASE("A host ends cleanly however many of its peers hang") {
     const std::string port = unused_port();
     std::vector<std::unique_ptr<RemoteHost>> peers;
     std::string lines;

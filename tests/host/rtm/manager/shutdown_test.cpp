@@ -104,7 +104,7 @@ TEST_CASE("A program without a main loop that exits when an end was requested wa
 }
 
 TEST_CASE(
-    "A component that shuts its manager down gets all callbacks of the end, and the host ends in order") {
+    "A component that shuts its manager down gets all callbacks of the end, and the host ends cleanly") {
     const std::string place = GENERATE("initialize", "set-up", "activated", "execute", "finalize",
                                        "destructor", "task", "thread", "service");
     CAPTURE(place);
@@ -121,7 +121,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("A component that shuts its manager down ends in order in a program without a main loop") {
+TEST_CASE("A component that shuts its manager down ends cleanly in a program without a main loop") {
     testing::ManagerFixture fixture(false);
     testing::register_component_type<OneCycle>(fixture.manager(), "OneCycle");
     auto& component = fixture.create<OneCycle>("OneCycle");

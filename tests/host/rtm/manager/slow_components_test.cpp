@@ -24,7 +24,7 @@ TEST_CASE("A component that hangs does not keep its host from ending") {
     CHECK_THAT(host.errors, Catch::Contains("exiting without waiting for onExecute of HangingComponent0\n"));
 }
 
-TEST_CASE("The other components and the host end in order whichever callback of a component hangs and it is "
+TEST_CASE("The other components and the host end cleanly whichever callback of a component hangs and it is "
           "named") {
     const std::vector<std::string> callbacks{"initialize",  "startup",  "activated", "execute",
                                              "update",      "rate",     "aborting",  "error",

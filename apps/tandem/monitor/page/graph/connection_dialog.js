@@ -5,7 +5,7 @@ import {propertiesIn, showProperties} from '../system/connection_properties.js';
 import {commonProperties, portLabel, whyNot} from '../system/system.js';
 
 const find = (id) => document.getElementById(id);
-const unknown = (name) => `${name} is no port of an RT-Component, and no port of one stands for it. The profile of an OPRoS application has the connections ` +
+const unknown = (name) => `${name} is not a port of an RT-Component, and no port of one stands for it. The profile of an OPRoS application has the connections ` +
   'between its components; AdaptorComp shares a port with the RTM host.';
 
 export class ConnectionDialog {

@@ -54,7 +54,7 @@ export function detailsOf({base, part, contexts = [], row, names}) {
 
 /** Returns the lines of a host: its title, its state, its processor time and memory. */
 export function linesOf({title, state, ended, pid, listed}) {
-  const word = state !== 'dead' && state !== 'gone' ? state : ended ? 'ended in order' : 'died';
+  const word = state !== 'dead' && state !== 'gone' ? state : ended ? 'ended cleanly' : 'died';
   const usage = listed && (state === 'alive' || state === 'stopped') ? `${listed.cpu_percent.toFixed(0)} % CPU, ${(listed.resident_bytes / 2 ** 20).toFixed(0)} MiB` : '';
   return [title, `${sideSigns[state] ?? '?'} ${word}${pid ? `, pid ${pid}` : ''}`, usage];
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds out what the messages of a port are about: distances around a sensor, or the pose of a robot. Draws nothing.
 
-/** Returns the part of a message with distances and their angles, as RTC::RangeData has it, or null. */
+/** Returns the part of a message with distances and their angles, as in RTC::RangeData, or null. */
 export function rangesIn(message) {
   if (message === null || typeof message !== 'object') return null;
   const {ranges, config} = message;

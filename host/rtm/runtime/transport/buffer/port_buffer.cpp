@@ -180,7 +180,7 @@ bool PortBuffer::wait(std::chrono::nanoseconds timeout, const Ready& ready) {
     return true;
 }
 
-// A thread that waits has looked with the mutex held, so it has seen the change or gets the notification.
+// A waiting thread has checked the buffer with the mutex held, so it has seen the change or gets the notification.
 void PortBuffer::wake() {
     { const std::lock_guard lock(wait_mutex_); }
     changed_.notify_all();

@@ -33,7 +33,7 @@ class CallIdentity final : public omniIdentity {
     }
 
     void dispatch(omniCallDescriptor& call) override {
-        if (call.op() == nullptr) return remote_.dispatch(call); // only asks whether the object is there
+        if (call.op() == nullptr) return remote_.dispatch(call); // only asks whether the object exists
         // From the unlock on, this identity may be deleted by another thread that gives the reference another one.
         omniIdentity& remote = remote_;
         const Kept kept(remote);

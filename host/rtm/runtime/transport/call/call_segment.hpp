@@ -52,7 +52,7 @@ class CallStream : public cdrMemoryStream {
     std::span<const std::byte> written() const {
         return {static_cast<const std::byte*>(bufPtr()), bufSize()};
     }
-    /// Returns whether so many items are left. The ORB's own check overflows at 4 GiB.
+    /// Returns whether this number of items is left. The ORB's own check overflows at 4 GiB.
     CORBA::Boolean checkInputOverrun(CORBA::ULong item_bytes, CORBA::ULong items,
                                      omni::alignment_t alignment) override;
     CORBA::ULong completion() override { return completed_; }

@@ -69,8 +69,8 @@ CallSender::CallSender()
 
 void CallSender::remove_name() { ::unlink(segment_.segment->path().c_str()); }
 
-// Checks only every 10 ms, because a check takes a system call. A process that has ended is thus found before the call begins,
-// unless it has ended just now.
+// Checks only every 10 ms, because a check takes a system call. So a process that has ended is detected before the call
+// begins, unless it ends at this moment.
 bool CallSender::is_served() {
     constexpr std::uint64_t pause_ns = 10'000'000;
     if (is_over_.load(std::memory_order_relaxed)) return false;

@@ -17,7 +17,7 @@ class CallSender {
     /// Removes the segment's name once the other process has joined. Nothing then remains after the end of both.
     void remove_name();
     /// Executes a call of a stub through shared memory, with the exceptions and within the time limit of a call of the ORB.
-    /// Returns false if it has not been executed and must go by the ORB: the other process has ended, executes no more calls
+    /// Returns false if it has not been executed and must go through the ORB: the other process has ended, executes no more calls
     /// or max_shared_calls already, or the arguments are too long. A call whose time is over counts until it ends.
     bool call(omniCallDescriptor& call);
 

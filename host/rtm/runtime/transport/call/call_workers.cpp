@@ -70,7 +70,8 @@ class OnewayOrder {
     };
 
   private:
-    /// Of one thread. A thread that is counted anew continues at the highest count, which exceeds all that calls wait for.
+    /// Of one thread. A thread that is counted again continues at the highest count, which exceeds every count that a call
+    /// waits for.
     struct Count {
         std::uint64_t taken, ended;
     };
@@ -105,7 +106,7 @@ struct CallWorkers::State : std::enable_shared_from_this<CallWorkers::State> {
         ++threads;
         return true;
     }
-    /// Returns whether the calling thread, which is idle, is to end.
+    /// Returns whether the calling thread, which is idle, must end.
     bool ends_this_thread() {
         const std::lock_guard lock(mutex);
         if (!stopped && threads <= kept_threads) return false;
@@ -165,7 +166,7 @@ struct CallWorkers::State : std::enable_shared_from_this<CallWorkers::State> {
         CallStream unused;
         call_object(object.in(), operation.in(), arguments, unused);
     }
-    /// Returns false if the caller has given up, or this end has stopped, so that the call must go by the ORB. The call is
+    /// Returns false if the caller has given up, or this end has stopped, so that the call must go through the ORB. The call is
     /// then answered and must not run.
     template <class Wait>
     bool wait_while_wanted(shm::IncomingCall& call, const Wait& wait) {

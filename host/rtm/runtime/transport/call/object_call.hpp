@@ -5,7 +5,7 @@
 namespace RTC {
 
 /// Executes an operation of an object of this process as the ORB executes a request from a socket: through the object's
-/// POA and its servant, which may have a compiled skeleton or none. `arguments` stands at the arguments. Writes the reply,
+/// POA and its servant, which may have a compiled skeleton or none. `arguments` is positioned at the arguments. Writes the reply,
 /// which is an exception if the servant throws. [any thread that the ORB knows: omni_thread::ensure_self]
 void call_object(CORBA::Object_ptr object, const char* operation, CallStream& arguments, CallStream& reply);
 

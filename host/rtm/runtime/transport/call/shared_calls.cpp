@@ -25,7 +25,7 @@ std::string offer_key(const std::string& provider_key) { return provider_key + "
 
 void log_calls_of_orb(const char* reason) {
     const Logger rtclog("connections");
-    RTC_DEBUG(("service calls go by the ORB, not through shared memory: %s", reason));
+    RTC_DEBUG(("service calls go through the ORB, not through shared memory: %s", reason));
 }
 
 /// Returns the offer of the provider with this IOR; nil if there is none.

@@ -26,7 +26,7 @@ class SharedCallsOffer {
 };
 
 /// Makes calls through `provider` use shared memory, if its process is on this machine, has published an offer for it and
-/// accepts. `provider_ior`: as it is in the profile. Otherwise, or if `provider` is nil, changes nothing. Waits up to 10 s.
+/// accepts. `provider_ior`: as in the profile. Otherwise, or if `provider` is nil, changes nothing. Waits up to 10 s.
 void share_calls_if_possible(CORBA::Object_ptr provider, const std::string& provider_ior,
                              const ConnectorProfile& profile);
 

@@ -27,7 +27,7 @@ class MessageServer {
 
   private:
     struct State;
-    const std::shared_ptr<State> state_; // the thread has it, too
+    const std::shared_ptr<State> state_; // the thread keeps a reference, too
     std::thread thread_;
 };
 

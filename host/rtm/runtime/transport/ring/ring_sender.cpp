@@ -90,11 +90,11 @@ std::unique_ptr<RemoteReceiver> add_ring_if_possible(std::unique_ptr<RemoteRecei
         ring->remove_name();
         return std::make_unique<RingSender>(std::move(ring), in_port.in(), std::move(calls));
     } catch (const tandem::shm::Error& error) {
-        RTC_DEBUG(("messages go by calls, not through shared memory: %s", error.what()));
+        RTC_DEBUG(("messages are sent by calls, not through shared memory: %s", error.what()));
     } catch (const CORBA::SystemException& error) {
-        RTC_DEBUG(
-            ("messages go by calls, not through shared memory: the InPort's process cannot be called (%s)",
-             error._name()));
+        RTC_DEBUG(("messages are sent by calls, not through shared memory: the InPort's process cannot be "
+                   "called (%s)",
+                   error._name()));
     }
     return calls;
 }

@@ -195,7 +195,7 @@ TEST_CASE("a run that outlives its monitor is not started twice") {
     CHECK(eventually([&] { return start()["ok"] == true; }));
 }
 
-TEST_CASE("a system runs once at a time, is stopped in order, and ends with the monitor") {
+TEST_CASE("a system runs once at a time, is stopped cleanly, and ends with the monitor") {
     const SystemsFolder folder;
     folder.add("robot");
     const auto log = [&] {
