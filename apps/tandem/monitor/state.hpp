@@ -204,6 +204,7 @@ struct ComponentStatus {
     std::string name;
     process::ComponentState state{};
     double in_cycle_s = 0; ///< how long an event-driven component has been in its cycle; 0: it is in none
+    std::string reason{};  ///< why it is in ERROR; empty: its host does not say
 };
 
 /// What a host was asked for and does not do.

@@ -172,7 +172,8 @@ void add_host_reports(const State& state, Json& json) {
                                       {"program", component.program},
                                       {"pid", component.pid},
                                       {"state", name_of(component.state)},
-                                      {"in_cycle_s", component.in_cycle_s}});
+                                      {"in_cycle_s", component.in_cycle_s},
+                                      {"reason", component.reason}});
     for (const NoticeState& notice : state.notices)
         json["notices"].push_back({{"program", notice.program},
                                    {"pid", notice.pid},

@@ -223,7 +223,9 @@ std::string describe_component(const ComponentStatus& component) {
                            component.program, component.pid, component.in_cycle_s);
     const bool failed = component.state == process::ComponentState::error;
     return fmt::format("{} in {} (pid {}) is {}", component.name, component.program, component.pid,
-                       failed ? "in ERROR; its host's log says why" : "not active");
+                       !failed                    ? "not active"
+                       : component.reason.empty() ? "in ERROR; its host's log says why"
+                                                  : "in ERROR: " + component.reason);
 }
 
 Verdict judge(const State& state) {

@@ -58,6 +58,15 @@ std::vector<FollowedPort> find_ports(const shm::Observation& observation) {
     return ports;
 }
 
+PortNames find_port_names(const shm::Observation& observation) {
+    PortNames found;
+    for_each_table(observation, [&](shm::Side, const link::PortTable& table) {
+        ++found.tables;
+        for (const link::Port& port : table.ports) found.names.insert(port.name);
+    });
+    return found;
+}
+
 Models find_models(const shm::Observation& observation, Models known) {
     for_each_table(observation, [&](shm::Side owner, link::PortTable table) {
         known[shm::index_of(owner)] = std::move(table.model);

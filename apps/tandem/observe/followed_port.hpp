@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstddef>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -29,6 +30,15 @@ void append_message(const FollowedPort& port, std::span<const std::byte> bytes, 
 /// Returns the data ports of both sides' port tables in an observation, in order. Skips damaged entries,
 /// because their ports cannot be decoded.
 std::vector<FollowedPort> find_ports(const shm::Observation& observation);
+
+/// The names of all ports of a link, of services, too.
+struct PortNames {
+    std::set<std::string> names{};
+    int tables = 0; ///< number of sides whose port table is there
+};
+
+/// Returns the names in both sides' port tables.
+PortNames find_port_names(const shm::Observation& observation);
 
 /// The component models of both sides, by shm::index_of(). Empty: unknown.
 using Models = std::array<std::string, 2>;

@@ -263,6 +263,32 @@ TEST_CASE("record ends at its duration and prints a summary") {
     CHECK(full.errors.find("/dev/full") != std::string::npos);
 }
 
+TEST_CASE("record refuses a port that no host of the link has, and leaves no file") {
+    const RecordingFile file;
+    FollowedLink link({timed_double_port("temperature")});
+    const auto record = [&](const std::vector<std::string>& ports) {
+        std::vector<std::string> command{"record", link.name(), "-o", file.path, "--duration", "0.1"};
+        for (const std::string& port : ports) command.insert(command.end(), {"--port", port});
+        return tandem_program(command);
+    };
+    // The other host has not published its ports, one of which may be meant.
+    const auto waited = record({"temprature"});
+    CHECK(waited.exit_code == 1);
+    CHECK(waited.errors == "tandem: waiting for port 'temprature'; tandem graph shows existing ports\n"
+                           "tandem: nothing was recorded and " +
+                               file.path + " was not written: link " + link.name() +
+                               " has no port 'temprature': the ports are temperature\n");
+    CHECK_FALSE(std::filesystem::exists(file.path));
+    link.publish_model_of_second("RTM");
+    const auto refused = record({"temperature", "temprature"});
+    CHECK(refused.exit_code == 1);
+    CHECK(refused.errors ==
+          "tandem: link " + link.name() + " has no port 'temprature': the ports are temperature\n");
+    CHECK(refused.output.empty());
+    CHECK_FALSE(std::filesystem::exists(file.path));
+    CHECK(record({"temperature"}).exit_code == 0);
+}
+
 TEST_CASE("record does not change an existing file") {
     const RecordingFile file;
     const std::string content = "a recording of yesterday";

@@ -43,17 +43,26 @@ std::string random_token() {
     return text;
 }
 
-/// Returns texts for a command line. Throws std::invalid_argument if a text could be an option or is too long.
-std::vector<std::string> arguments_in(const PlainJson& list, std::size_t most = max_arguments) {
+/// Returns texts for a command line. Throws std::invalid_argument if a text could be an option or is too long. `what`: what
+/// the texts are, in the plural, for its message.
+std::vector<std::string> arguments_in(const PlainJson& list, const char* what = "arguments",
+                                      std::size_t most = max_arguments) {
     std::vector<std::string> arguments;
-    if (!list.is_array() || list.empty() || list.size() > most)
-        throw std::invalid_argument(fmt::format("expected a list of 1 to {} strings", most));
+    if (!list.is_array() || list.empty())
+        throw std::invalid_argument(fmt::format("the request names no {}: name 1 to {}", what, most));
+    if (list.size() > most)
+        throw std::invalid_argument(
+            fmt::format("the request names {} {}, but at most {} are allowed: name fewer, and the others in "
+                        "a further request",
+                        list.size(), what, most));
     for (const PlainJson& item : list) {
         const auto text = item.get<std::string>();
         if (text.empty() || text.size() > max_argument || text.front() == '-' ||
             text::printable_line(text) != text)
-            throw std::invalid_argument("expected a string of at most 300 bytes, without control characters, "
-                                        "that does not begin with -");
+            throw std::invalid_argument(fmt::format(
+                "'{}' among the {} is not valid: expected 1 to {} bytes, without control characters, that "
+                "do not begin with -",
+                text::printable_line(text.substr(0, 40)), what, max_argument));
         arguments.push_back(text);
     }
     return arguments;
@@ -84,6 +93,23 @@ std::string stick_socket_of(const State& state, const std::string& link_name) {
                     port.value["drive"].is_string())
                     return port.value["drive"].get<std::string>();
     return {};
+}
+
+/// Returns the links that a request names; without `links`, all that the monitor shows and can read.
+std::vector<std::string> links_to_record(const PlainJson& request, const State& state) {
+    if (request.contains("links")) return arguments_in(request["links"], "links");
+    std::vector<std::string> links;
+    for (const LinkState& link : state.links)
+        if (link.readable) links.push_back(link.name);
+    if (links.empty()) throw std::invalid_argument("there is no link to record: start the hosts of a link");
+    return links;
+}
+
+/// Returns the last line that a program has written; empty if there is none.
+std::string last_line(int output) {
+    std::string lines = last_lines(output, max_replay_end);
+    while (!lines.empty() && lines.back() == '\n') lines.pop_back();
+    return lines.substr(lines.rfind('\n') + 1);
 }
 
 /// Repeats the members by which a client recognizes the request, whatever their types.
@@ -179,8 +205,9 @@ nlohmann::ordered_json Control::status() {
 
 std::string Control::recording_failure() {
     if (!recorder_ || !recorder_->look() || recorder_->look()->success()) return "";
-    return fmt::format("recording to {}: tandem record has failed; its message is where tandem monitor runs",
-                       recorded_file_);
+    const std::string line = last_line(recorder_output_.get());
+    return fmt::format("recording to {}: tandem record {}{}{}", recorded_file_, recorder_->look()->text(),
+                       line.empty() ? "" : ": ", line);
 }
 
 void Control::handle(const std::string& text, const Reply& reply) {
@@ -196,7 +223,12 @@ void Control::handle(const std::string& text, const Reply& reply) {
         if (op == "recordings" || op == "log") return report(request, op, reply);
         reply(answer(request, false,
                      "expected op drive, rtm, opros, record, recordings, replay, system or log"));
-    } catch (const std::exception& error) { // from JSON: a member has another type
+    } catch (const PlainJson::exception& error) {
+        reply(answer(request, false,
+                     fmt::format("a member of the request is missing or of another type: {}; "
+                                 "docs/monitoring.md describes the requests",
+                                 error.what())));
+    } catch (const std::exception& error) {
         reply(answer(request, false, error.what()));
     }
 }
@@ -247,8 +279,9 @@ void Control::change_systems(const PlainJson& request, const Reply& reply) {
     if (command == "list") return run(systems_->list_command(), request, reply);
     const auto name = request.at("name").get<std::string>();
     if (command == "new")
-        return run(systems_->new_command(name, arguments_in(request.at("components"), max_components)),
-                   request, reply);
+        return run(
+            systems_->new_command(name, arguments_in(request.at("components"), "components", max_components)),
+            request, reply);
     if (command == "save") {
         std::vector<std::string> hosts;
         for (const PlainJson& pid : request.at("hosts")) hosts.push_back(std::to_string(pid.get<unsigned>()));
@@ -301,7 +334,7 @@ void Control::record(const PlainJson& request, const Reply& reply) {
     }
     if (!recording().empty()) return reply(answer(request, false, "already recording to " + recorded_file_));
     std::vector<std::string> command{program_, "record"};
-    for (const auto& link : arguments_in(request.at("links"))) {
+    for (const auto& link : links_to_record(request, state_())) {
         // tandem record would wait for it, without a page that says so.
         if (shm::list_generations(link).empty())
             return reply(
@@ -311,8 +344,9 @@ void Control::record(const PlainJson& request, const Reply& reply) {
     }
     recorded_file_ = (std::filesystem::current_path() / new_recording_name()).string();
     command.insert(command.end(), {"-o", recorded_file_});
+    recorder_output_ = process::FileDescriptor(memfd_create("tandem-record", MFD_CLOEXEC));
     recorder_.reset();
-    recorder_.emplace(command);
+    recorder_.emplace(command, recorder_output_.get());
     reply(answer(request, true, recorded_file_));
 }
 

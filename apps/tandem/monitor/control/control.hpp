@@ -95,7 +95,7 @@ class Control {
     RequestProgram publishing_, calling_;
     std::optional<BackgroundProgram> recorder_, player_;
     std::string recorded_file_, replayed_file_;
-    process::FileDescriptor player_output_;
+    process::FileDescriptor recorder_output_, player_output_;
     std::optional<Systems> systems_;
     process::FileDescriptor stick_socket_;
 };

@@ -9,7 +9,9 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <iterator>
 #include <set>
+#include <utility>
 
 namespace tandem::monitor {
 namespace {
@@ -46,6 +48,20 @@ void add_components(const ComponentStates& file, std::uint64_t now_ns,
     }
 }
 
+/// Returns why a component is in ERROR, and removes its notices: `NAME: REASON` or `component NAME: REASON`.
+std::string take_reason(const std::string& name, std::vector<NoticeState>& notices) {
+    std::string reason;
+    std::erase_if(notices, [&](const NoticeState& notice) {
+        for (const std::string& head : {name + ": ", "component " + name + ": "})
+            if (notice.kind == NoticeKind::component && notice.text.starts_with(head)) {
+                if (reason.empty()) reason = notice.text.substr(head.size());
+                return true;
+            }
+        return false;
+    });
+    return reason;
+}
+
 } // namespace
 
 void StatusReader::look(Process& process, std::uint32_t pid, std::uint64_t now_ns) {
@@ -69,14 +85,18 @@ void StatusReader::read_process(std::uint32_t pid, const std::string& program, S
                     fmt::format("{} (pid {}): the states of {} further components are not shown", program,
                                 pid, file->left_out));
         }
-    for (auto& [name, component] : states)
-        state.components.push_back({program, pid, name, component.state, component.in_cycle_s});
+    std::vector<NoticeState> notices;
     for (const auto& descriptor : process.notices)
         if (const auto file = read_memory_file<Notices>(descriptor))
             for (const auto& place : file->place)
                 if (place.kind != 0)
-                    state.notices.push_back(
+                    notices.push_back(
                         {program, pid, static_cast<NoticeKind>(place.kind), printable_text(place.text)});
+    for (auto& [name, component] : states)
+        state.components.push_back(
+            {program, pid, name, component.state, component.in_cycle_s,
+             component.state == ComponentState::error ? take_reason(name, notices) : ""});
+    std::move(notices.begin(), notices.end(), std::back_inserter(state.notices));
 }
 
 /// Notes the hosts of links whose files this process cannot see.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Draws the wheelchair from above, from the port `chair` of the program `wheelchair`. docs/wheelchair.md describes the
 // geometry: metres and degrees, x to the right, y up, angles to the left.
-import {makeSvg, number, setAttributes, setClass, setText} from './dom.js';
+import {fixed, makeSvg, number, setAttributes, setClass, setText} from './dom.js';
 import {EmergencyStop} from './emergency.js';
 import {GamepadInput} from './gamepad.js';
 import {MapView, headingText} from './shapes/map_view.js';
@@ -22,9 +22,9 @@ const states = [null, 'stopped, since a reference was late: release the stick', 
 function describe(chair) {
   const speed = radius * (chair.wheel_left + chair.wheel_right) / 2;
   const turns = radius * Math.max(Math.abs(chair.wheel_left), Math.abs(chair.wheel_right)) > slowest;
-  const what = chair.state === 0 ? turns ? 'drives' : 'stands' : states[chair.state] ?? `state ${chair.state}`;
-  return `${chair.t.toFixed(1)} s: ${what}, ${turns ? `${speed.toFixed(2)} m/s, ` : ''}brake ${chair.brake ? 'closed' : 'open'}, ` +
-    `${chair.volts_left.toFixed(1)} V left, ${chair.volts_right.toFixed(1)} V right`;
+  const what = chair.state === 0 ? turns ? 'drives' : 'stands' : states[chair.state] ?? `state ${number(chair.state)}`;
+  return `${fixed(chair.t, 1)} s: ${what}, ${turns ? `${fixed(speed, 2)} m/s, ` : ''}brake ${chair.brake ? 'closed' : 'open'}, ` +
+    `${fixed(chair.volts_left, 1)} V left, ${fixed(chair.volts_right, 1)} V right`;
 }
 
 /** Returns the newest values of all ports `chair` with their link's name. */
@@ -137,6 +137,7 @@ export class Chair {
   }
 
   drawMap({x, y, heading_deg: heading}) {
+    if (!Number.isFinite(x) || !Number.isFinite(y)) return setText(find('chair-place'), '✕ The chair does not know its place.'); // NaN is null in JSON
     const last = this.path.at(-1);
     if (!last || Math.hypot(x - last[0], y - last[1]) > 0.01) this.path.push([x, y]);
     if (this.path.length > mostPoints) this.path.shift();
@@ -144,17 +145,18 @@ export class Chair {
     this.map.place(x, y, heading);
     if (this.whole) this.map.fit(this.path);
     else this.map.follow(x, y, surroundings);
-    setText(find('chair-place'), `x ${x.toFixed(2)} m, y ${y.toFixed(2)} m, heading ${headingText(heading)}; a square is ${this.map.step} m`);
+    setText(find('chair-place'), `x ${fixed(x, 2)} m, y ${fixed(y, 2)} m, heading ${headingText(heading)}; a square is ${this.map.step} m`);
   }
 
   drawStick(chair) {
     // The stick's x points to the left, as on the page. 2000 counts are full deflection.
-    setAttributes(this.knob, {cx: 90 - chair.stick_x / 2000 * 66, cy: 92 - chair.stick_y / 2000 * 66});
-    [chair.wheel_left, chair.wheel_right].forEach((wheel, i) => {
+    const [x, y, left, right] = [chair.stick_x, chair.stick_y, chair.wheel_left, chair.wheel_right].map((value) => value ?? 0);
+    setAttributes(this.knob, {cx: 90 - x / 2000 * 66, cy: 92 - y / 2000 * 66});
+    [left, right].forEach((wheel, i) => {
       const size = Math.min(80, Math.abs(wheel) / fastest * 80);
       setAttributes(this.bars[i], {y: wheel > 0 ? 92 - size : 92, height: Math.max(1, size)});
     });
-    const texts = [`stick ${number(chair.stick_x)}, ${number(chair.stick_y)}`, chair.wheel_left.toFixed(1), chair.wheel_right.toFixed(1)];
+    const texts = [`stick ${number(chair.stick_x)}, ${number(chair.stick_y)}`, fixed(chair.wheel_left, 1), fixed(chair.wheel_right, 1)];
     texts.forEach((text, i) => setText(this.texts[i], text));
   }
 }

@@ -142,14 +142,10 @@ export class ControlPanel {
 
   async record() {
     const on = this.state.control.recording === '';
-    const links = this.state.links.filter((link) => link.readable).map((link) => link.name);
-    if (on && links.length === 0) this.recorded = '✕ not recorded: there is no link';
-    else {
-      this.recorded = on ? 'starting ...' : 'stopping ...';
-      this.show(this.state);
-      const reply = await this.connection.ask({op: 'record', on, links});
-      this.recorded = !reply.ok ? `✕ ${on ? 'not recorded' : 'not stopped'}: ${reply.text}` : on ? null : `✓ recorded to ${reply.text}`;
-    }
+    this.recorded = on ? 'starting ...' : 'stopping ...';
+    this.show(this.state);
+    const reply = await this.connection.ask({op: 'record', on}); // all links that the monitor shows
+    this.recorded = !reply.ok ? `✕ ${on ? 'Not recorded' : 'The recording was not stopped'}: ${reply.text}` : on ? null : `✓ recorded to ${reply.text}`;
     tellFailure('record', this.recorded?.startsWith('✕'), this.recorded);
     this.show(this.state);
   }

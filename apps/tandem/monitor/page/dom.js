@@ -60,15 +60,26 @@ export class KeyedList {
   }
 }
 
+// The monitor may not know a number yet, for example a rate after the first reading. The page shows a dash then.
+const isNumber = (value) => typeof value === 'number' && !Number.isNaN(value);
+
+/** Formats a number with so many digits behind the point. */
+export const fixed = (value, digits) => isNumber(value) ? value.toFixed(digits) : '–';
+
 /** Formats a number with three digits, without an exponent. */
 export function number(value) {
+  if (!isNumber(value)) return '–';
   if (value === 0) return '0';
   const digits = Math.max(0, Math.min(3, 2 - Math.floor(Math.log10(Math.abs(value)))));
   return value.toFixed(digits).replace(/(\.\d*?)0+$/, '$1').replace(/\.$/, '');
 }
 
+/** Formats a counter. */
+export const count = (value) => isNumber(value) ? String(value) : '–';
+
 /** Formats nanoseconds in a suitable unit. */
 export function duration(ns) {
+  if (!isNumber(ns)) return '–';
   if (ns < 1e3) return `${number(ns)} ns`;
   if (ns < 1e6) return `${number(ns / 1e3)} µs`;
   if (ns < 1e9) return `${number(ns / 1e6)} ms`;
@@ -76,7 +87,7 @@ export function duration(ns) {
 }
 
 export function silence(seconds) {
-  if (seconds === null) return '–';
+  if (!isNumber(seconds)) return '–';
   if (seconds < 1) return 'now';
   if (seconds < 120) return `${Math.round(seconds)} s ago`;
   return seconds < 7200 ? `${Math.round(seconds / 60)} min ago` : `${Math.round(seconds / 3600)} h ago`;

@@ -79,6 +79,6 @@ export class MemberTree {
         if (!port.damage && `${port.name} ${port.component} ${link.name}`.toLowerCase().includes(wanted))
           ports.push({key: keyOfPort(link, port), link, port});
     this.list.show(ports.slice(0, mostPorts), ({key}) => key);
-    setText(this.note, ports.length === 0 ? 'No port.' : ports.length > mostPorts ? `${ports.length - mostPorts} more ports: filter them` : '');
+    setText(this.note, ports.length === 0 ? wanted ? 'No port has this name.' : 'There is no port.' : ports.length > mostPorts ? `${ports.length - mostPorts} more ports are not listed: type a part of a name above.` : '');
   }
 }

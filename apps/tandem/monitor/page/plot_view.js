@@ -25,9 +25,6 @@ function clockText(seconds, step) {
 
 const colourOf = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
-/** Returns how a curve is called for a number of digits that people can read. */
-const valueText = (value) => value === null || value === undefined || Number.isNaN(value) ? '–' : number(value);
-
 export class PlotView {
   /** `parent`: gets the plot and its legend. `plot`: curves, seconds, range (null: fits the values). `store`: SampleStore. */
   constructor(parent, plot, store) {
@@ -68,7 +65,7 @@ export class PlotView {
     const [show, remove] = entry.children, off = this.hidden.has(curveId(curve));
     setClass(entry, `entry entry${index % colours}`);
     setText(show.children[1], label);
-    setText(show.children[2], valueText(value));
+    setText(show.children[2], number(value));
     setAttributes(show, {'aria-pressed': !off, title: off ? 'show' : 'hide'});
     if (remove) setAttributes(remove, {'aria-label': `remove ${label}`});
   }

@@ -72,9 +72,11 @@ class PlotCard {
       Object.assign(end, {type: 'number', step: 'any', className: 'end', ariaLabel: i === 0 ? 'lowest value' : 'highest value'});
       end.addEventListener('change', () => {
         const range = ends.map((each) => Number(each.value));
-        if (range[0] < range[1]) this.plot.range = range;
+        const isRange = range[0] < range[1];
+        if (isRange) this.plot.range = range;
         show();
         this.panel.keep();
+        if (!isRange) this.panel.note = `The lowest value must be below the highest, but ${range[0]} is not below ${range[1]}: the plot keeps its range.`;
       });
     });
     select.addEventListener('change', () => {
@@ -147,7 +149,7 @@ export class PlotsPanel {
     const keys = new Set(this.cards.flatMap(({plot}) => [...plot.key ? [plot.key] : [], ...plot.curves.flatMap(({key, minus}) => minus ? [key, minus.key] : [key])]));
     if (this.pending) keys.add(this.pending);
     this.store.follow(this, [...keys].slice(0, mostPorts));
-    this.note = keys.size > mostPorts ? `The plots show ${mostPorts} ports at most: remove curves of another port.` : '';
+    this.note = keys.size > mostPorts ? `The plots can show ${mostPorts} ports at once, and have curves of ${keys.size}: remove the curves of a port.` : '';
     find('plots-hint').hidden = this.cards.length > 0;
     for (const card of this.cards) card.update();
   }
@@ -155,7 +157,7 @@ export class PlotsPanel {
   /** Returns the card, or null if there are too many. */
   addPlot(plot) {
     if (this.cards.length >= mostPlots) {
-      this.note = `There are ${mostPlots} plots: remove one first.`;
+      this.note = `The page can show ${mostPlots} plots: remove one, then add another.`;
       return null;
     }
     const card = new PlotCard(this, plot);
@@ -191,7 +193,7 @@ export class PlotsPanel {
     const known = card.plot.curves.some((each) => curveId(each) === curveId(curve));
     if (known) return;
     if (card.plot.curves.length < mostCurves) this.change(card, [...card.plot.curves, curve]);
-    else this.note = `A plot has ${mostCurves} curves at most: remove one first.`;
+    else this.note = `A plot can have ${mostCurves} curves: remove one, or use another plot.`;
   }
 
   hasCurve(curve) { return this.active?.plot.curves.some((each) => curveId(each) === curveId(curve)) ?? false; }

@@ -164,11 +164,12 @@ export class SampleStore {
     this.socket = new WebSocket(socketAddress(`api/samples${token ? `?token=${encodeURIComponent(token)}` : ''}`));
     this.socket.binaryType = 'arraybuffer';
     this.socket.onopen = () => {
-      this.retry = 500;
+      Object.assign(this, {retry: 500, refusal: ''});
       this.request();
     };
     this.socket.onmessage = ({data}) => typeof data === 'string' ? this.take(JSON.parse(data)) : this.takePicture(pictureIn(data));
     this.socket.onclose = () => {
+      if (this.tracks.size > 0) this.refusal = 'No new samples: the monitor has closed their connection, or something between it and this page has. Trying again.';
       setTimeout(() => this.tracks.size > 0 && this.connect(), this.retry);
       this.retry = Math.min(2 * this.retry, 8000);
     };

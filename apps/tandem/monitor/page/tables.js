@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The tables of ports and call queues. Each has one row that is updated.
-import {KeyedList, duration, make, makeSvg, number, setAttributes, setClass, setText, silence} from './dom.js';
+import {KeyedList, count, duration, make, makeSvg, number, setAttributes, setClass, setText, silence} from './dom.js';
 import {Sorter} from './sort.js';
 
 const find = (id) => document.getElementById(id);
@@ -42,17 +42,17 @@ function fillHistogram(cell, times) {
   }
   const [, bars, title] = cell.firstChild.children;
   const counts = new Map();
-  for (const [end, count] of times?.octaves ?? []) {
+  for (const [end, samples] of times?.octaves ?? []) {
     const octave = Math.max(0, Math.min(octaves - 1, Math.round(Math.log2(end)) - firstOctave));
-    counts.set(octave, (counts.get(octave) ?? 0) + count);
+    counts.set(octave, (counts.get(octave) ?? 0) + samples);
   }
   const highest = Math.log2(1 + Math.max(1, ...counts.values()));
-  setAttributes(bars, {d: [...counts].map(([octave, count]) =>
-    `M ${octave * barWidth} ${barHeight} v ${-(Math.log2(1 + count) / highest * barHeight).toFixed(1)} h ${barWidth - 1} V ${barHeight} z`).join(' ')});
-  setText(title, (times?.octaves ?? []).map(([end, count]) => `below ${duration(end)}: ${count}`).join('\n') || 'no samples in the last seconds');
+  setAttributes(bars, {d: [...counts].map(([octave, samples]) =>
+    `M ${octave * barWidth} ${barHeight} v ${-(Math.log2(1 + samples) / highest * barHeight).toFixed(1)} h ${barWidth - 1} V ${barHeight} z`).join(' ')});
+  setText(title, (times?.octaves ?? []).map(([end, samples]) => `below ${duration(end)}: ${samples}`).join('\n') || 'no samples in the last seconds');
 }
 
-export const time = (times, which) => [times === null ? '–' : duration(times[which]), 'number'];
+export const time = (times, which) => [duration(times?.[which]), 'number'];
 
 /** With more rows than this, the page contains only those in view. */
 const mostRows = 100;
@@ -136,16 +136,15 @@ export class PortTable {
     setAttributes(head.firstChild, {'aria-pressed': key === this.chosen});
     if (port.component && head.title !== port.component) head.title = port.component;
     if (port.damage) return fill(row, 1, [...Array(9).fill(['', '']), [link.name, ''], [`damaged: ${port.damage}`, 'bad']]);
-    const lost = port.lost;
+    const lost = count(port.lost), {recently = {}} = port;
     fill(row, 1, [
       [number(port.sent_per_s), 'number'],
-      [port.recently.missed_deadlines > 0 ? `◷ ${silence(port.silent_s)}` : silence(port.silent_s),
-        port.recently.missed_deadlines > 0 ? 'number warn' : 'number'],
-      [port.recently.lost > 0 ? `▼ ${lost}` : String(lost), port.recently.lost > 0 ? 'number bad' : 'number'],
+      [recently.missed_deadlines > 0 ? `◷ ${silence(port.silent_s)}` : silence(port.silent_s), recently.missed_deadlines > 0 ? 'number warn' : 'number'],
+      [recently.lost > 0 ? `▼ ${lost}` : lost, recently.lost > 0 ? 'number bad' : 'number'],
       time(port.age, 'p50_ns'), time(port.age, 'p99_ns'), time(port.age, 'max_ns'),
       {histogram: port.age},
-      [String(port.waiting), 'number'],
-      [direction(link, port), ''], [link.name, ''], [shortType(port.type), ''],
+      [count(port.waiting), 'number'],
+      [direction(link, port), ''], [link.name, ''], [shortType(port.type ?? ''), ''],
     ]);
   }
 
@@ -181,15 +180,15 @@ export class CallTable {
       12: ({queue}) => queue.cancels}, () => this.show(this.links));
     this.list = new KeyedList(find('calls').tBodies[0], () => make('tr'), (row, {link, queue}) => {
       if (queue.damage) return fill(row, 0, [[queue.name, ''], [link.name, ''], [`damaged: ${queue.damage}`, 'bad']]);
-      const failing = queue.recently.failed > 0 ? 'number bad' : 'number';
+      const failing = queue.recently?.failed > 0 ? 'number bad' : 'number';
       fill(row, 0, [
         [`${link.sides[queue.callers].model} host`, ''], [link.name, ''],
         [number(queue.calls_per_s), 'number'], [number(queue.answered_per_s), 'number'],
-        [String(queue.open_calls), 'number'],
+        [count(queue.open_calls), 'number'],
         time(queue.round_trip, 'p50_ns'), time(queue.round_trip, 'p99_ns'),
         time(queue.round_trip, 'max_ns'), {histogram: queue.round_trip},
-        [String(queue.calls), 'number'], [String(queue.timeouts), failing], [String(queue.overloads), failing],
-        [String(queue.cancels), 'number'],
+        [count(queue.calls), 'number'], [count(queue.timeouts), failing], [count(queue.overloads), failing],
+        [count(queue.cancels), 'number'],
       ]);
     });
   }

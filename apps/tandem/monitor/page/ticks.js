@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The table of components: the state of each, and its ticks. A tick belongs to one component or to several that tick together.
-import {KeyedList, duration, make, number} from './dom.js';
+import {KeyedList, count, duration, make, number} from './dom.js';
 import {Sorter} from './sort.js';
 import {RowWindow, fill, time} from './tables.js';
 
@@ -30,8 +30,8 @@ function tickCells(tick) {
     tick.hang ? [`! hangs ${duration(tick.hang.seconds * 1e9)}`, 'number bad'] : [number(tick.ticks_per_s), 'number'],
     time(tick.lateness, 'p50_ns'), time(tick.lateness, 'p99_ns'), [duration(tick.latest_ns), 'number'], {histogram: tick.lateness},
     time(tick.execution, 'p50_ns'), time(tick.execution, 'p99_ns'), [duration(tick.longest_ns), 'number'],
-    [tick.overruns_recently > 0 ? `◷ ${tick.overruns}` : String(tick.overruns), tick.overruns_recently > 0 ? 'number warn' : 'number'],
-    [String(tick.skipped), 'number'],
+    [tick.overruns_recently > 0 ? `◷ ${count(tick.overruns)}` : count(tick.overruns), tick.overruns_recently > 0 ? 'number warn' : 'number'],
+    [count(tick.skipped), 'number'],
   ];
 }
 

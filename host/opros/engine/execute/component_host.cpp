@@ -7,7 +7,6 @@
 #include "host/opros/engine/load/device_library.hpp"
 #include "host/opros/engine/load/load_component.hpp"
 #include "host/process/published/inventory.hpp"
-#include "host/process/published/notices.hpp"
 #include "host/rt/periodic_tick.hpp"
 #include "host/rt/rehearsal.hpp"
 
@@ -39,7 +38,26 @@ ComponentHost::PublishedState::~PublishedState() {
     component_.removeLifecycleListener(this);
 }
 
+void ComponentHost::PublishedState::set_reason(const std::string& text) {
+    const std::lock_guard lock(mutex_);
+    reason_ = text;
+    publish_reason();
+}
+
+void ComponentHost::PublishedState::publish_reason() {
+    notice_.reset();
+    if (in_error_ && !reason_.empty()) notice_.emplace(process::NoticeKind::component, reason_);
+}
+
+// The reason is there before the state, so that observers of the state see it, too.
 void ComponentHost::PublishedState::stateChanged(LifecycleState state) {
+    const std::lock_guard lock(mutex_);
+    const bool in_error = state == OPROS_CS_ERROR;
+    if (in_error_ != in_error) {
+        in_error_ = in_error;
+        if (!in_error) reason_.clear();
+        publish_reason();
+    }
     published_.set(state == OPROS_CS_ACTIVE  ? process::ComponentState::active
                    : state == OPROS_CS_ERROR ? process::ComponentState::error
                                              : process::ComponentState::inactive);
@@ -193,7 +211,7 @@ void ComponentHost::log_return_code(const char* callback, ReturnType code, Retur
 void ComponentHost::log_if_component_stopped_itself() {
     const bool in_error = component_->getStatus() == OPROS_CS_ERROR;
     if (in_error && !error_logged_) {
-        const std::string line = "component " + name_ + " has gone to ERROR by itself";
+        const std::string line = "component " + name_ + ": it has gone to ERROR by itself";
         log::error("{}", line);
         set_last_error(line);
     }
@@ -263,6 +281,7 @@ bool ComponentHost::is_known_error(const std::string& text) const {
 void ComponentHost::set_last_error(const std::string& text) {
     const std::lock_guard lock(last_error_mutex_);
     last_error_ = text;
+    if (published_state_) published_state_->set_reason(text);
 }
 
 /// A start or stop that fails leads to ERROR, because it is unknown what has been switched on or off by then.

@@ -8,6 +8,7 @@
 #include "host/plugin/parallel_probes.hpp"
 #include "host/process/log_throttle.hpp"
 #include "host/process/published/component_states.hpp"
+#include "host/process/published/notices.hpp"
 #include "host/rt/short_mutex.hpp"
 
 #include <Component.h>
@@ -129,17 +130,24 @@ class ComponentHost {
     bool consume_dependency_cycles();
 
   private:
-    /// Publishes the component and its state for observers of this process.
+    /// Publishes the component, its state, and in ERROR the reason for observers of this process.
     class PublishedState final : public LifecycleListener {
       public:
         PublishedState(Component& component, const ComponentProfile& profile);
         ~PublishedState() override;
         void set_in_cycle_since(std::int64_t ns) noexcept { published_.set_in_cycle_since(ns); }
+        /// [any-thread] Sets the reason for the next or current stay in ERROR; empty: none.
+        void set_reason(const std::string& text);
 
       private:
         void stateChanged(LifecycleState state) override;
+        void publish_reason(); // under mutex_
         Component& component_;
         process::OwnComponentState published_;
+        std::mutex mutex_;
+        bool in_error_ = false;
+        std::string reason_;
+        std::optional<process::OwnNotice> notice_;
     };
 
     /// Returns in one line, which is already logged, why the transition has failed; empty if it has succeeded.

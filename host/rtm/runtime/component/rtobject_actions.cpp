@@ -6,8 +6,11 @@
 #include "host/rt/cycle_lines.hpp"
 #include "host/rt/periodic_tick.hpp"
 #include "host/rt/rehearsal.hpp"
+#include "host/rtm/runtime/execution/callback_failure.hpp"
 #include <atomic>
+#include <iterator>
 #include <rtm/RTObject.h>
+#include <string>
 #include <typeinfo>
 
 namespace RTC {
@@ -27,6 +30,15 @@ ReturnCode_t RTObject_impl::onError(UniqueId) { return RTC_OK; }
 ReturnCode_t RTObject_impl::onReset(UniqueId) { return RTC_OK; }
 ReturnCode_t RTObject_impl::onStateUpdate(UniqueId) { return RTC_OK; }
 ReturnCode_t RTObject_impl::onRateChanged(UniqueId) { return RTC_OK; }
+
+// Returns for example `1 (RTC_ERROR)`. A component may return any number.
+static std::string describe_code(ReturnCode_t code) {
+    static constexpr const char* names[] = {"RTC_OK",      "RTC_ERROR",        "BAD_PARAMETER",
+                                            "UNSUPPORTED", "OUT_OF_RESOURCES", "PRECONDITION_NOT_MET"};
+    const auto number = static_cast<std::size_t>(code);
+    return std::to_string(static_cast<int>(code)) +
+           (number < std::size(names) ? std::string(" (") + names[number] + ")" : "");
+}
 
 // Runs one callback between its listeners. Logs every exception and turns it into RTC_ERROR for the state machine, so
 // that a component cannot end its host. OpenRTM-aist catches the exception without a message.
@@ -52,7 +64,7 @@ ReturnCode_t RTObject_impl::run_guarded(const char* what, UniqueId ec_id, PreCom
             if (!rehearsing()) listener(ec_id);
         });
         result = callback();
-        if (result != RTC_OK) error = "returned " + std::to_string(static_cast<int>(result));
+        if (result != RTC_OK) error = "returned " + describe_code(result);
     });
     // In the error state onError runs in each cycle, possibly in several contexts at once, and may fail each time. Its
     // failure is logged once per stay in that state.
@@ -61,7 +73,8 @@ ReturnCode_t RTObject_impl::run_guarded(const char* what, UniqueId ec_id, PreCom
     if (pre == PreComponentActionListenerType::PRE_ON_ABORTING) reported = false;
     if (pre == PreComponentActionListenerType::PRE_ON_ERROR)
         already_logged = reported.exchange(!error.empty());
-    const auto note_failure = [&] {
+    const auto note_failure = [&](const std::string& why) {
+        note_callback_failure(this, why);
         if (pre == PreComponentActionListenerType::PRE_ON_ACTIVATED ||
             pre == PreComponentActionListenerType::PRE_ON_EXECUTE ||
             pre == PreComponentActionListenerType::PRE_ON_STATE_UPDATE ||
@@ -69,7 +82,7 @@ ReturnCode_t RTObject_impl::run_guarded(const char* what, UniqueId ec_id, PreCom
             m_failedCallback = what;
     };
     if (!error.empty()) {
-        note_failure();
+        note_failure(std::string(what) + " " + error);
         if (!already_logged) RTC_ERROR(("%s %s", what, error.c_str()));
         error.clear();
     }
@@ -79,7 +92,7 @@ ReturnCode_t RTObject_impl::run_guarded(const char* what, UniqueId ec_id, PreCom
         });
     });
     if (error.empty()) return result;
-    note_failure();
+    note_failure(std::string("a listener after ") + what + " " + error);
     RTC_ERROR(("a listener after %s %s", what, error.c_str()));
     return RTC_ERROR;
 }

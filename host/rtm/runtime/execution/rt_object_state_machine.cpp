@@ -2,6 +2,7 @@
 #include "host/rtm/runtime/execution/rt_object_state_machine.hpp"
 #include "host/rt/cycle_lines.hpp"
 #include "host/rt/rehearsal.hpp"
+#include "host/rtm/runtime/execution/callback_failure.hpp"
 #include "host/rtm/runtime/manager/slow_transitions.hpp"
 #include "host/rtm/runtime/naming/local_object.hpp"
 #include <rtm/RTObject.h>
@@ -93,12 +94,23 @@ void RTObjectStateMachine::requestErrorState() {
     while (!states_.compare_exchange_weak(now, {now.current, ERROR_STATE})) continue;
 }
 
+void RTObjectStateMachine::noteFailure() {
+    if (local_ != nullptr) failure_ = RTC::take_callback_failure(local_);
+}
+
+// The reason is there before the state, so that observers of the state see it, too.
+void RTObjectStateMachine::publish(LifeCycleState state) {
+    if (state == ERROR_STATE && !failure_.empty())
+        reason_.emplace(tandem::process::NoticeKind::component, name_ + ": " + failure_);
+    published_->set(state == ACTIVE_STATE  ? ComponentState::active
+                    : state == ERROR_STATE ? ComponentState::error
+                                           : ComponentState::inactive);
+    if (state != ERROR_STATE) reason_.reset();
+}
+
 // Ends a transition. If on_activated has failed, the component counts as active until the next step aborts it.
 void RTObjectStateMachine::enterState(LifeCycleState state, bool entered) {
-    if (published_)
-        published_->set(state == ACTIVE_STATE  ? ComponentState::active
-                        : state == ERROR_STATE ? ComponentState::error
-                                               : ComponentState::inactive);
+    if (published_) publish(state);
     // An error that was requested meanwhile stays pending.
     States now = states_;
     while (!states_.compare_exchange_weak(now, {state, entered ? now.next : ERROR_STATE})) continue;
@@ -115,6 +127,7 @@ bool RTObjectStateMachine::applyTransition() {
         return true;
     }
     const bool entered = to == ACTIVE_STATE ? call(on_activated) == RTC_OK : true;
+    if (!entered) noteFailure();
     if (to == ERROR_STATE) call(on_aborting);
     enterState(to, entered);
     return true;
@@ -128,12 +141,17 @@ void RTObjectStateMachine::execute() {
     const auto [now, next] = states_.load();
     if (now != next) return;
     if (now == ERROR_STATE && !rehearsing()) call(on_error);
-    if (now == ACTIVE_STATE && executeComponent() != RTC_OK) requestErrorState();
+    if (now == ACTIVE_STATE && executeComponent() != RTC_OK) {
+        noteFailure();
+        requestErrorState();
+    }
 }
 
 void RTObjectStateMachine::runStateUpdate() {
-    if (states_.load() == States{ACTIVE_STATE, ACTIVE_STATE} && call(on_state_update) != RTC_OK)
+    if (states_.load() == States{ACTIVE_STATE, ACTIVE_STATE} && call(on_state_update) != RTC_OK) {
+        noteFailure();
         requestErrorState();
+    }
 }
 
 RTC::ReturnCode_t RTObjectStateMachine::startup() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "host/process/published/component_states.hpp"
+#include "host/process/published/notices.hpp"
 #include <atomic>
 #include <optional>
 #include <rtm/RTC.h>
@@ -73,6 +74,8 @@ class RTObjectStateMachine {
     RTC::ReturnCode_t callRemote(const Action& action);
     RTC::ReturnCode_t executeComponent();
     void requestErrorState();
+    void noteFailure();
+    void publish(RTC::LifeCycleState state);
     void enterState(RTC::LifeCycleState state, bool entered);
 
     // First what each cycle uses.
@@ -83,6 +86,8 @@ class RTObjectStateMachine {
     RTC::DataFlowComponentAction_var data_flow_actions_; // nil: of this process, or without these actions
     std::string name_;
     std::optional<tandem::process::OwnComponentState> published_; // of a component of this process
+    std::string failure_;                                         // of the callback that has failed last
+    std::optional<tandem::process::OwnNotice> reason_;            // in ERROR
 };
 
 } // namespace RTC_impl

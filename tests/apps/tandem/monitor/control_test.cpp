@@ -166,6 +166,30 @@ TEST_CASE("a recording of a link that does not exist is refused") {
     CHECK(state(monitor)["control"]["recording"] == "");
 }
 
+TEST_CASE("without names, all links that the monitor shows are recorded, also more than a request may name") {
+    std::vector<std::unique_ptr<Pair>> pairs;
+    std::vector<std::string> names;
+    for (int i = 0; i < 17; ++i) names.push_back(pairs.emplace_back(std::make_unique<Pair>())->link.name);
+    std::vector<std::string> more(names.begin() + 1, names.end());
+    more.emplace_back("--control");
+    RunningMonitor monitor(names.front(), more);
+    Controller client(monitor);
+    const auto refused = client.ask({{"op", "record"}, {"on", true}, {"links", names}});
+    CHECK(refused["ok"] == false);
+    CHECK_THAT(refused["text"].get<std::string>(),
+               Catch::Contains("names 17 links, but at most 16 are allowed"));
+    const auto reply = client.ask({{"op", "record"}, {"on", true}});
+    REQUIRE(reply["ok"] == true);
+    const auto recorder = find_child(monitor.pid());
+    REQUIRE(recorder > 0);
+    std::ifstream file("/proc/" + std::to_string(recorder) + "/cmdline");
+    const std::string command(std::istreambuf_iterator<char>(file), {});
+    for (const auto& name : names) CHECK_THAT(command, Catch::Contains(name));
+    CHECK(client.ask({{"op", "record"}, {"on", false}})["ok"] == true);
+    CHECK(eventually([&] { return state(monitor)["control"]["recording"] == ""; }));
+    std::filesystem::remove(reply["text"].get<std::string>());
+}
+
 TEST_CASE("a recording that the page has started and that is killed is in the verdict") {
     const Pair pair;
     pair.first->publish();
@@ -179,7 +203,7 @@ TEST_CASE("a recording that the page has started and that is killed is in the ve
     kill(recorder, SIGKILL);
     CHECK(eventually([&] { return state(monitor)["verdict"]["level"] == "unrecorded"; }));
     CHECK_THAT(state(monitor)["verdict"]["reason"].get<std::string>(),
-               Catch::Contains("tandem record has failed"));
+               Catch::Contains("tandem record was killed by signal 9"));
     std::filesystem::remove(reply["text"].get<std::string>());
 }
 

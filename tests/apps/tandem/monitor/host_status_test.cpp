@@ -26,7 +26,7 @@ void check_verdict(Tanks& tanks, Level level, const std::string& named) {
 
 } // namespace
 
-TEST_CASE("a component that throws is in ERROR in the verdict") {
+TEST_CASE("a component that throws is in ERROR in the verdict, with the reason") {
     Tanks tanks;
     SECTION("an RTC") {
         tanks.start_rtm({"", "throws"});
@@ -36,6 +36,7 @@ TEST_CASE("a component that throws is in ERROR in the verdict") {
         tanks.start_opros({"", "throws"});
         check_verdict(tanks, Level::failed, "Tank1 in opros_host (pid ");
     }
+    check_verdict(tanks, Level::failed, ") is in ERROR: onExecute threw");
 }
 
 TEST_CASE("an event-driven component that does not return from its cycle hangs") {

@@ -70,6 +70,25 @@ TEST_CASE("the states of a process's components can be read from outside while t
     CHECK(read().components.empty());
 }
 
+TEST_CASE("a component in ERROR is one finding, with the reason that its host publishes") {
+    Reading read;
+    OwnComponentState arm("Arm", ComponentState::error), leg("Leg", ComponentState::error);
+    const OwnNotice of_arm(NoticeKind::component, "component Arm: onExecute threw an exception: stuck");
+    const OwnNotice of_leg(NoticeKind::component, "Leg: onActivated returned 1 (RTC_ERROR)");
+    const OwnNotice other(NoticeKind::component, "component Hand is left out: there is no library");
+    const State state = read();
+    REQUIRE(state.components.size() == 2);
+    CHECK(state.components[0].reason == "onExecute threw an exception: stuck");
+    CHECK(state.components[1].reason == "onActivated returned 1 (RTC_ERROR)");
+    CHECK(state.notices.size() == 1);
+    const Verdict verdict = judge(state);
+    CHECK(verdict.findings == 3);
+    CHECK(verdict.reason == "Arm in test (pid " + std::to_string(getpid()) +
+                                ") is in ERROR: onExecute threw an exception: stuck");
+    arm.set(ComponentState::active); // its notice is then about something else
+    CHECK(read().components[0].reason.empty());
+}
+
 TEST_CASE("an event-driven component hangs if its cycle lasts longer than the hosts wait") {
     Reading read; // looks at 10 s, 20 s, ...
     OwnComponentState arm("Arm", ComponentState::active);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rt/lock_step/step_client.hpp"
 #include "tests/host/opros/engine/running.hpp"
+#include "tests/host/published_notices.hpp"
 
 #include <dlfcn.h>
 
@@ -114,11 +115,16 @@ TEST_CASE("a component that throws goes to ERROR and the others continue") {
     application.step("M");
     CHECK_THROWS_WITH(application.step("M"), Catch::Contains("component M: onExecute threw an exception"));
     CHECK(state(application, "M") == OPROS_CS_ERROR);
+    const auto reasons = [] { return published_notices(tandem::process::NoticeKind::component); };
+    REQUIRE(reasons().size() == 1);
+    CHECK_THAT(reasons()[0], Catch::StartsWith("component M: onExecute threw an exception: "));
     CHECK(recorder(application, "M").calls.back() == "error");
     application.step("P");
     CHECK(recorder(application, "P").executions == 1);
     application.step("M");
     CHECK(recorder(application, "M").executions == 2);
+    CHECK(application.find_component("M")->component().recover() == OPROS_SUCCESS);
+    CHECK(reasons().empty());
 }
 
 TEST_CASE("a component in ERROR that is recovered or reset is executed again, with its connections") {

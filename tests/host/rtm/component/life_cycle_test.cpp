@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The order of callbacks, the states of the OMG RTC specification, and errors in callbacks.
+#include "tests/host/published_notices.hpp"
 #include "tests/host/rtm/manager_fixture.hpp"
 #include <rtm/ExecutionContextBase.h>
 
@@ -37,6 +38,10 @@ TEST_CASE("A component that fails or throws goes to the error state, stays there
     fixture.step(rtc);
     CHECK(Recorder::take_calls() == "deactivated aborting error");
     CHECK(fixture.state(rtc) == RTC::ERROR_STATE);
+    const auto reasons = [] { return published_notices(tandem::process::NoticeKind::component); };
+    REQUIRE(reasons().size() == 1);
+    CHECK_THAT(reasons()[0], Catch::StartsWith(std::string(rtc.getInstanceName()) + ": onExecute " +
+                                               (throws ? "threw" : "returned 1 (RTC_ERROR)")));
     fixture.step(rtc);
     CHECK(Recorder::take_calls() == "error");
 
@@ -46,6 +51,7 @@ TEST_CASE("A component that fails or throws goes to the error state, stays there
     Recorder::failing_callback() = "";
     CHECK(rtc.reset(0) == RTC::RTC_OK);
     CHECK(fixture.state(rtc) == RTC::INACTIVE_STATE);
+    CHECK(reasons().empty());
 }
 
 namespace {

@@ -1,37 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Other processes that do not get messages any more, as observers of this process see them.
 #include "ToolServicesSkel.h"
-#include "host/process/published/notices.hpp"
+#include "tests/host/published_notices.hpp"
 #include "tests/host/rtm/manager_fixture.hpp"
 #include "tests/host/rtm/remote_host.hpp"
-#include <fcntl.h>
-#include <filesystem>
 #include <rtm/CORBA_RTCUtil.h>
-#include <unistd.h>
 
 using namespace testing;
 
 namespace {
 
-/// The lines that this process shows other processes.
-std::vector<std::string> notices() {
-    using tandem::process::Notices;
-    std::vector<std::string> lines;
-    for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
-        std::error_code closed;
-        const auto target = std::filesystem::read_symlink(entry.path(), closed).string();
-        if (target.find(Notices::file_name) == std::string::npos) continue;
-        const int file = open(entry.path().c_str(), O_RDONLY | O_CLOEXEC);
-        Notices copy{};
-        const auto bytes = pread(file, &copy, sizeof copy, 0);
-        close(file);
-        for (const auto& place : copy.place)
-            if (bytes == static_cast<ssize_t>(sizeof copy) &&
-                place.kind == static_cast<std::uint64_t>(tandem::process::NoticeKind::lost))
-                lines.emplace_back(place.text);
-    }
-    return lines;
-}
+std::vector<std::string> notices() { return published_notices(tandem::process::NoticeKind::lost); }
 
 } // namespace
 

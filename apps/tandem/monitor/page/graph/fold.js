@@ -32,10 +32,10 @@ function statesOf(components) {
 
 /** Returns one data port of a link for several, or undefined. */
 function sumOf(ports) {
-  const sound = ports.filter((port) => !port.damage), silent = sound.map((port) => port.silent_s).filter((seconds) => seconds !== null);
+  const sound = ports.filter((port) => !port.damage), silent = sound.map((port) => port.silent_s).filter((seconds) => Number.isFinite(seconds));
   const sum = (value) => sound.reduce((all, port) => all + value(port), 0);
   return ports.length === 0 ? undefined : {damage: sound.length === 0 ? ports[0].damage : '', sent_per_s: sum((port) => port.sent_per_s),
-    recently: {lost: sum((port) => port.recently.lost)}, silent_s: silent.length > 0 ? Math.min(...silent) : null};
+    recently: {lost: sum((port) => port.recently?.lost ?? 0)}, silent_s: silent.length > 0 ? Math.min(...silent) : null};
 }
 
 class Folder {

@@ -6,7 +6,7 @@ import {hasDetail} from './topology.js';
 import {fittingScale} from './zoom.js';
 
 const row = 24, dot = 8;
-const layerGap = 30, widestGap = 420, mostFitted = 40; // edges: a layout of more takes long
+const layerGap = 30, groupGap = 14, widestGap = 420, mostFitted = 40; // edges: a layout of more takes long
 /** Components without an edge, from this number on, are packed beside the others instead of one below the other. */
 const packed = 7;
 const manyNodes = 150;
@@ -42,12 +42,40 @@ function nodesOf(host, connected, width) {
       'elk.spacing.nodeNode': '12', 'elk.padding': '[top=0,left=0,bottom=0,right=0]'}}];
 }
 
-/** Returns the input of elkjs: first sides left, second sides right, data in both directions in between. `gap`: between layers. */
-function elkGraph({hosts, edges}, gap, width) {
-  const connected = new Set(edges.flatMap(({left, right}) => [left, right]));
-  const count = hosts.reduce((sum, {components}) => sum + components.length, 0);
+/** Returns {hosts, edges} for each group of hosts that are connected with each other. */
+export function connectedGroups({hosts, edges}) {
+  const groupOf = new Map(hosts.map((host) => [host, {hosts: [host], edges: []}])), hostOf = new Map(); // by ports
+  for (const host of hosts)
+    for (const {ports} of host.components) for (const {id, inner} of ports) hostOf.set(id, host).set(inner, host);
+  for (const edge of edges) {
+    const [into, from] = [edge.left, edge.right].map((id) => groupOf.get(hostOf.get(id)));
+    into.edges.push(edge);
+    if (into === from) continue;
+    into.hosts.push(...from.hosts);
+    into.edges.push(...from.edges);
+    for (const host of from.hosts) groupOf.set(host, into);
+  }
+  return [...new Set(groupOf.values())];
+}
+
+/** Returns the input of elkjs. Groups of hosts without a connection between them stand side by side, as far as the page is wide. */
+function elkGraph(topology, groups, gap, width) {
+  const connected = new Set(topology.edges.flatMap(({left, right}) => [left, right]));
+  const node = (id, group) => groupNode(id, group, connected, gap, width);
+  if (groups.length < 2) return node('root', topology);
   return {
     id: 'root',
+    layoutOptions: {'elk.algorithm': 'rectpacking', 'elk.hierarchyHandling': 'SEPARATE_CHILDREN', 'elk.spacing.nodeNode': String(groupGap), 'elk.padding': '[top=0,left=0,bottom=0,right=0]',
+      'elk.rectpacking.widthApproximation.strategy': 'TARGET_WIDTH', 'elk.rectpacking.widthApproximation.targetWidth': String(width - 2 * groupGap)},
+    children: groups.map((group, i) => node(`group ${i}`, group)),
+  };
+}
+
+/** Returns a node with hosts: first sides left, second sides right, data in both directions in between. `gap`: between layers. */
+function groupNode(id, {hosts, edges}, connected, gap, width) {
+  const count = hosts.reduce((sum, {components}) => sum + components.length, 0);
+  return {
+    id,
     layoutOptions: {'elk.algorithm': 'layered', 'elk.direction': 'RIGHT', 'elk.hierarchyHandling': 'INCLUDE_CHILDREN',
       'elk.layered.considerModelOrder.strategy': 'NODES_AND_EDGES', 'elk.layered.spacing.nodeNodeBetweenLayers': String(gap),
       'elk.spacing.nodeNode': '18', 'elk.spacing.edgeLabel': '0', 'elk.spacing.labelLabel': '0', 'elk.spacing.edgeEdge': '4',
@@ -71,7 +99,7 @@ function placesOf(layout) {
   };
   walk(layout, 0, 0);
   // An edge's points are relative to its container in elkjs.
-  for (const edge of layout.edges ?? []) {
+  for (const edge of [layout, ...layout.children].flatMap((node) => node.edges ?? [])) {
     const from = places.get(edge.container ?? layout.id);
     const move = ({x, y}) => [x + from.x, y + from.y];
     const [section] = edge.sections, label = edge.labels?.[0];
@@ -88,9 +116,9 @@ function placesOf(layout) {
  */
 export async function layOut(topology, page) {
   const elk = await loading;
-  const lay = (gap) => elk.layout(elkGraph(topology, gap, page.width)), narrow = await lay(layerGap);
+  const groups = connectedGroups(topology), lay = (gap) => elk.layout(elkGraph(topology, groups, gap, page.width)), narrow = await lay(layerGap);
   const width = page.width / Math.max(1, fittingScale(narrow, page)), missing = width - narrow.width - 4;
-  if (missing < 20 || topology.edges.length > mostFitted || topology.edges.length === 0) return placesOf(narrow);
+  if (missing < 20 || groups.length > 1 || topology.edges.length > mostFitted || topology.edges.length === 0) return placesOf(narrow);
   const wide = await lay(layerGap + missing), slope = (wide.width - narrow.width) / missing;
   return placesOf(slope > 0 ? await lay(Math.min(widestGap, layerGap + missing / slope)) : narrow);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The words of the graph about hosts, components, ports and edges, and their width.
-import {duration, number} from '../dom.js';
+import {count, duration, fixed, number} from '../dom.js';
 
 /** Seconds without a message until an edge becomes grey. */
 const stale = 2;
@@ -48,22 +48,22 @@ export function detailsOf({base, part, contexts = [], row, names}) {
     lines.push(`context of ${owner}: ${kind}, ${duration(period)}${running ? '' : ', not running'}${members.length > 0 ? `, with ${members.join(', ')}` : ''}`);
   }
   if (row?.tick?.execution) lines.push(`cycle: p50 ${duration(row.tick.execution.p50_ns)}, p99 ${duration(row.tick.execution.p99_ns)}`);
-  if (part?.names.length > 0) lines.push(`named ${part.names.join(', ')}`);
+  if (part?.names?.length > 0) lines.push(`named ${part.names.join(', ')}`);
   return lines.join('\n');
 }
 
 /** Returns the lines of a host: its title, its state, its processor time and memory. */
 export function linesOf({title, state, ended, pid, listed}) {
   const word = state !== 'dead' && state !== 'gone' ? state : ended ? 'ended cleanly' : 'died';
-  const usage = listed && (state === 'alive' || state === 'stopped') ? `${listed.cpu_percent.toFixed(0)} % CPU, ${(listed.resident_bytes / 2 ** 20).toFixed(0)} MiB` : '';
+  const usage = listed && (state === 'alive' || state === 'stopped') ? `${fixed(listed.cpu_percent, 0)} % CPU, ${fixed(listed.resident_bytes / 2 ** 20, 0)} MiB` : '';
   return [title, `${sideSigns[state] ?? '?'} ${word}${pid ? `, pid ${pid}` : ''}`, usage];
 }
 
-export const threadsOf = ({listed}) => listed ? `${listed.threads} threads; the busiest: ${listed.busiest_threads.slice(0, 8)
-  .map(({name, cpu_percent: share}) => `${name} ${share.toFixed(1)} %`).join(', ')}` : '';
+export const threadsOf = ({listed}) => listed ? `${count(listed.threads)} threads; the busiest: ${(listed.busiest_threads ?? []).slice(0, 8)
+  .map(({name, cpu_percent: share}) => `${name} ${fixed(share, 1)} %`).join(', ')}` : '';
 
 export const labelOf = (port) => `${kindSigns[port.kind] ?? ''}${port.name}`;
-const rateOf = (port) => port.damage ? '✕ damaged' : `${port.recently.lost > 0 ? '▼ ' : ''}${number(port.sent_per_s)}/s`;
+const rateOf = (port) => port.damage ? '✕ damaged' : `${port.recently?.lost > 0 ? '▼ ' : ''}${number(port.sent_per_s)}/s`;
 export const portTextOf = (port) => `${port.mismatch ? '✕ ' : ''}${labelOf(port)}${port.alone && port.port ? `  ${rateOf(port.port)}` : ''}`;
 export const edgeTextOf = ({refused, service, dead, port}) => refused ? '✕ refused' : service ? 'calls' : dead ? '–' : rateOf(port);
 
@@ -72,6 +72,6 @@ export function edgeState({port, dead, service, refused, inside}) {
   if (dead) return 'dead';
   if (refused) return 'refused';
   if (service) return 'service';
-  if (port.damage || port.recently.lost > 0) return 'lost';
-  return port.silent_s === null || port.silent_s > stale ? 'stale' : 'live';
+  if (port.damage || port.recently?.lost > 0) return 'lost';
+  return !(port.silent_s <= stale) ? 'stale' : 'live';
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Draws a place from above: metres, x to the right, y up, angles in degrees to the left. A grid shows the scale.
-import {makeSvg, setAttributes} from '../dom.js';
+import {fixed, makeSvg, setAttributes} from '../dom.js';
 
 const margin = 0.7, smallest = 3; // m
 const steps = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500];
@@ -15,7 +15,7 @@ function multiples(from, side, step) {
 }
 
 /** Returns an angle in degrees as people say it: from -180° to 180°, however often the robot has turned. */
-export const headingText = (degrees) => `${(degrees - 360 * Math.round(degrees / 360)).toFixed(0)}°`;
+export const headingText = (degrees) => `${fixed(degrees - 360 * Math.round(degrees / 360), 0)}°`;
 
 export class MapView {
   /** `svg`: gets the map. `marker`: an element that is drawn at the pose, looking to the right. */

@@ -37,9 +37,9 @@ export class LogView {
     Object.assign(this, {asks: true, askedAt: performance.now()});
     const reply = await this.connection.ask({op: 'log', from: this.store.offsets});
     this.asks = false;
-    if (!reply.ok) return setText(find('log-note'), `✕ ${reply.text}`);
+    if (!reply.ok) return setText(find('log-note'), `✕ The log cannot be read: ${reply.text}`);
     const known = reply.log.length > 0;
-    if (this.store.take(reply.log) || !known) this.draw();
+    if (this.store.take(reply.log) || !known || find('log-note').textContent.startsWith('✕')) this.draw();
     find('log-where').hidden = known || this.store.lines.length > 0;
   }
 

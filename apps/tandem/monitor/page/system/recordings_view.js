@@ -16,7 +16,7 @@ export class RecordingsView {
   /** `panel`: of control.js, with the connection and the token. */
   constructor(panel) {
     Object.assign(this, {panel, file: null, replay: null});
-    find('replay-stop').addEventListener('click', () => panel.connection.ask({op: 'replay', on: false}));
+    find('replay-stop').addEventListener('click', () => this.stop());
     this.list = new KeyedList(find('recordings'), ({file}) => this.createItem(file), (item, recording) => this.updateItem(item, recording));
   }
 
@@ -65,15 +65,21 @@ export class RecordingsView {
   async play(file) {
     this.refused = null;
     const reply = await this.panel.connection.ask({op: 'replay', on: true, file});
-    this.refused = reply.ok ? null : `✕ not replayed: ${reply.text}`;
+    this.refused = reply.ok ? null : `✕ ${file} is not replayed: ${reply.text}`;
     tellFailure('replay', !reply.ok, this.refused);
     this.showReplay();
+  }
+
+  async stop() {
+    const reply = await this.panel.connection.ask({op: 'replay', on: false});
+    tellFailure('replay', !reply.ok, `✕ The replay was not stopped: ${reply.text}`);
   }
 
   async ask() {
     this.askedAt = performance.now();
     const reply = await this.panel.connection.ask({op: 'recordings'});
-    if (!reply.ok) return;
+    setText(find('recordings-empty'), reply.ok ? 'There is no recording.' : `✕ The recordings cannot be listed: ${reply.text}`);
+    if (!reply.ok) return find('recordings-empty').hidden = false;
     this.list.show(reply.recordings, ({file}) => file);
     find('recordings-empty').hidden = reply.recordings.length > 0;
   }

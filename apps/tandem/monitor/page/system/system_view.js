@@ -78,7 +78,7 @@ export class SystemView {
     const wanted = find('system-filter').value.toLowerCase();
     const listed = this.components.filter(({name, model}) => `${name} ${model}`.toLowerCase().includes(wanted));
     this.rows.show(listed.slice(0, mostRows), ({model, id}) => `${model} ${id}`);
-    setText(find('system-count'), listed.length > mostRows ? `${listed.length - mostRows} more: filter them` : '');
+    setText(find('system-count'), listed.length > mostRows ? `${listed.length - mostRows} more components are not listed: type a part of a name above.` : '');
     this.showActivate(listed.filter(canStart));
     const connections = connectionsIn(this.components);
     this.connected.show(connections, ({id}) => id);

@@ -42,7 +42,7 @@ export class SystemsView {
 
   async read() {
     const reply = await this.connection.ask({op: 'system', command: 'list'}), found = reply.ok ? jsonIn(reply.text) : null;
-    if (found === null) return this.tell(false, reply.text.trim() || 'the folder cannot be read');
+    if (found === null) return this.tell(false, `The systems in the folder cannot be listed: ${reply.text.trim() || 'the answer cannot be read'}`);
     this.names = found.systems;
     const known = new Set(found.components.map(({name}) => name));
     this.counts = Object.fromEntries(Object.entries(this.counts).filter(([name]) => known.has(name)));
@@ -102,13 +102,13 @@ export class SystemsView {
 
   create(name) {
     const components = partsOf(this.counts);
-    if (components.length === 0) return this.tell(false, 'choose how many of which component the system has');
+    if (components.length === 0) return this.tell(false, 'The new system has no component: enter a number beside each component that it should have.');
     return this.act({command: 'new', name, components}, `Create ${name}`);
   }
 
   async save(name) {
     const group = this.groups?.find(({label}) => label === find('system-save-hosts').value);
-    if (!group) return this.tell(false, 'no host runs');
+    if (!group) return this.tell(false, 'There is nothing to save: no host is running.');
     const replace = this.names.includes(name) && find('system-replace').checked;
     if (await this.act({command: 'save', name, hosts: group.pids, replace}, `Save ${name}`)) find('system-replace').checked = false;
   }

@@ -15,7 +15,7 @@ function state() {
   const idle = { readable: true, reason: "", damage: "", memory_bytes: 1, generation: 1, call_queues: [], shared_ports: [] };
   const side = { pid: 1, state: "joined", model: "OPRoS" };
   const list = Array.from({ length: ports }, (_, i) => ({ name: nameOf(i), owner: "first", writer: "first", type: "{dS}", value: { data: names.map(() => 0) },
-    messages_per_s: rate, sent: 1, received: 1, waiting: 0, silent_s: 0, age: null, recently: {}, lost: {}, component: "Made" }));
+    sent_per_s: rate, sent: 1, received: 1, waiting: 0, silent_s: 0, age: null, recently: {}, lost: {}, component: "Made" }));
   return { ...real, time_ms: Date.now(), links: [{ name: "made", ...idle, sides: { first: side, second: side }, ports: list }] };
 }
 

@@ -62,6 +62,9 @@ async function during(name, action) {
 test("the hosts of 1,000 components begin folded, and show what has failed", async () => {
   assert.deepEqual((await names()).sort(), ["249 more components", "250 components", "250 components", "250 components", "Comp2x77"]);
   assert.equal(await page.locator("#graph .component.failed").count(), 1);
+  const places = await page.locator("#graph .host > rect:first-child").evaluateAll((boxes) => boxes.map((box) => box.getBoundingClientRect().toJSON()));
+  const right = await page.locator("#graph").evaluate((part) => part.getBoundingClientRect().right);
+  assert.ok(new Set(places.map(({ y }) => Math.round(y))).size < hosts && places.every((place) => place.right <= right), JSON.stringify(places)); // side by side
   assert.match(await page.locator("#graph-note").textContent(), /^4 of 4 hosts are folded; all hosts have 1000 components$/);
   await during("folded, 3 s at rest", () => page.waitForTimeout(3000));
   await page.screenshot({ path: join(pictures, "graph-folded.png") });
@@ -136,10 +139,10 @@ test("wheel, keys and buttons zoom, and the point below the pointer stays where 
   assert.ok(Math.abs((await box()).width - after.width) < 1);
   await page.getByRole("button", { name: "Zoom in" }).click();
   assert.ok((await box()).width > 1.2 * after.width);
-  const left = await page.locator("#graph").evaluate((part) => part.scrollTop);
   await page.locator("#graph").focus();
   for (let i = 0; i < 8; ++i) await page.keyboard.press("+");
-  await page.keyboard.press("ArrowDown");
-  await page.waitForFunction((old) => document.querySelector("#graph").scrollTop > old, left);
+  const left = await page.locator("#graph").evaluate((part) => part.scrollLeft);
+  await page.keyboard.press("ArrowRight");
+  await page.waitForFunction((old) => document.querySelector("#graph").scrollLeft > old, left);
   assert.deepEqual(page.errors, []);
 });
