@@ -135,7 +135,7 @@ TEST_CASE("rtm_host warns of a component whose destructor hangs, runs it and lea
     CHECK(result.exit_code == 1); // a component was left behind
     CHECK_THAT(result.errors, Catch::Contains("the destructor of Endless does not return; the host"));
     CHECK_THAT(result.errors,
-               Catch::Contains("the destructor of Endless0 does not return; the host goes on"));
+               Catch::Contains("the destructor of Endless0 does not return; the host continues"));
     CHECK_THAT(result.errors, Catch::Contains("exiting without waiting for the destructor of Endless0"));
 }
 

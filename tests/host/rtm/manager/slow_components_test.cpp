@@ -59,7 +59,7 @@ TEST_CASE("The other components and the host end cleanly whichever callback of a
         // onInitialize and onStartup are called while the component is created.
         const std::string named =
             i < 2 ? "onInitialize or onStartup of component FaultInjector0 does not return within 2 s"
-                  : names[i] + " of FaultInjector0 does not return; the host goes on";
+                  : names[i] + " of FaultInjector0 does not return; the host continues";
         CHECK_THAT(hosts[i]->errors, Catch::Contains(named));
         CHECK(hosts[i]->output.find("Reporter0 finalized") != std::string::npos);
     }

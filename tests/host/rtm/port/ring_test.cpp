@@ -18,8 +18,8 @@ TEST_CASE("Messages between two processes go through shared memory without a cal
     for (int number : {1, 2, 3}) CHECK(connection.put(number) == DataPortStatus::PORT_OK);
     CHECK(connection.read_all() == numbers_up_to(3));
     const RTC::ByteData bytes = sequence_of(4);
-    connection.buffer.length(1); // the memory of each value in the buffer is kept
-    for (int i = 0; i < 3; ++i) {
+    connection.buffer.length(1); // with four values, the memory of which is kept
+    for (int i = 0; i < 4; ++i) {
         connection.sender->put(bytes);
         connection.port.read();
     }
