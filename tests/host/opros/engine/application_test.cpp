@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rt/lock_step/step_client.hpp"
 #include "tests/host/opros/engine/running.hpp"
-#include "tests/host/published_notices.hpp"
+#include "tests/host/process/published_notices.hpp"
 
 #include <dlfcn.h>
 

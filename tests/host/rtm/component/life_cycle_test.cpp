@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The order of callbacks, the states of the OMG RTC specification, and errors in callbacks.
-#include "tests/host/published_notices.hpp"
+#include "tests/host/process/published_notices.hpp"
 #include "tests/host/rtm/manager_fixture.hpp"
 #include <rtm/ExecutionContextBase.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Other processes that do not get messages any more, as observers of this process see them.
 #include "ToolServicesSkel.h"
-#include "tests/host/published_notices.hpp"
+#include "tests/host/process/published_notices.hpp"
 #include "tests/host/rtm/manager_fixture.hpp"
 #include "tests/host/rtm/remote_host.hpp"
 #include <rtm/CORBA_RTCUtil.h>
