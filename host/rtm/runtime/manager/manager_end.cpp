@@ -14,8 +14,8 @@ bool Manager::shutdown() {
     {
         std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
         has_main_loop = m_impl->main_loop != std::thread::id();
-        is_requested = m_impl->must_return_first() ||
-                       (m_impl->is_run && m_impl->owner != std::this_thread::get_id());
+        is_requested =
+            m_impl->must_return_first() || (m_impl->is_run && m_impl->owner != std::this_thread::get_id());
     }
     if (is_requested) {
         m_impl->request_end(*this);

@@ -59,6 +59,7 @@ bool Manager::stopComponents(std::vector<RTObject_impl*> components) {
         all_exited = false;
     };
     std::vector<std::string> names;
+    names.reserve(components.size());
     for (const auto* component : components) names.emplace_back(component->getInstanceName());
     // Calls `step` for each component that has returned from the steps before.
     const auto run = [&](void (*step)(RTObject_impl*)) {
@@ -101,6 +102,7 @@ void Manager::cleanupComponents() {
 
 void Manager::Impl::destroy(const std::vector<Component>& exited) {
     std::vector<std::pair<std::string, std::function<void()>>> destructors;
+    destructors.reserve(exited.size());
     for (const auto& component : exited)
         destructors.emplace_back(component.object->getInstanceName(),
                                  [component] { component.factory->destroy(component.object); });
