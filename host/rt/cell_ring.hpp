@@ -10,10 +10,10 @@
 // from one processor to the other. A longer value is often a chain of pointers. Its cell has the addresses of the parts, so
 // that the reader requests all of them at once.
 //
-// There is one cell more than values. The writer fills a cell that has nothing to read, and then drops the oldest value if
-// there are too many, so that its next cell has nothing to read either:
+// A ring of depth N has N + 1 cells. The writer fills a cell that has nothing to read. Then, if N + 1 values wait, it drops the
+// oldest one, so that its next cell has nothing to read either:
 //
-//     writer: W1 fetch-and of the word, drops the value | W2 fills the cell anew  | W3 stores the word (release)
+//     writer: W1 fetch-and of the word, drops the value | W2 refills the cell     | W3 stores the word (release)
 //     reader: R1 loads the word (acquire)               | R2 loads the content    | R3 compare-exchange (release)
 //
 // If W1 is before R3, R3 fails. If R3 is before W1, or before the load that spares W1, the writer acquires what R3 has released,

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/integration/two_hosts.hpp"
 
+#include "host/process/run_command.hpp"
+
 #include <arpa/inet.h>
 #include <chrono>
 #include <csignal>
-#include <cstdlib>
 #include <fcntl.h>
 #include <fstream>
 #include <stdexcept>
 #include <sys/socket.h>
-#include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
 
@@ -125,14 +125,11 @@ void TwoHosts::start_opros() {
 }
 
 std::pair<int, std::string> TwoHosts::check_application(const std::vector<std::string>& arguments) const {
-    const auto log = folder_ / "check.log";
-    std::string command =
-        "TANDEM_PLUGIN_PATH=" TEST_PLUGINS " " TANDEM_PROGRAM " opros check " + write_application().string();
-    for (const auto& argument : arguments) command += " " + argument;
-    command += " > " + log.string() + " 2>&1";
-    const int status = std::system(command.c_str());
-    std::ifstream file(log);
-    return {WEXITSTATUS(status), {std::istreambuf_iterator<char>(file), {}}};
+    std::vector<std::string> command{"env",   "TANDEM_PLUGIN_PATH=" TEST_PLUGINS, TANDEM_PROGRAM, "opros",
+                                     "check", write_application().string()};
+    command.insert(command.end(), arguments.begin(), arguments.end());
+    const auto result = tandem::process::run_command(command, {.merge_errors = true});
+    return {result.exit_code(), result.output};
 }
 
 void TwoHosts::write_rtc_conf() const {

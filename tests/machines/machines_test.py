@@ -194,7 +194,7 @@ def restart(build):
     pair.expect_in_order()
     pair.kill("a")
     pair.wait_for_log("b", "is gone")
-    (pair.folder / "in").write_text("")  # the numbers begin anew
+    (pair.folder / "in").write_text("")  # the numbers start again
     pair.start_count("CountOut")
     pair.wait_for_more()
     pair.expect_in_order()

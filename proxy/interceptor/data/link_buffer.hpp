@@ -107,10 +107,11 @@ class LinkBuffer final : public engine::BufferBase {
     bool readback_ = true;                 ///< an empty ring repeats the last message
     std::chrono::nanoseconds read_wait_{}; ///< how long a reader waits for a message
     bool has_last_ = false;                ///< read() has returned the last message
-    bool last_was_long_ = false;           ///< the last message did not fit into a record of the ring
-    RTC::ByteData last_;                   ///< the last result of get()
-    std::vector<std::byte> transcoded_;    ///< kept for its memory
-    shm::MessageSnapshot snapshot_;        ///< of a long message that is read more than once
+    /// The last message did not fit into a record of the ring. Used by link_buffer_in_place.cpp, which not every engine has.
+    [[maybe_unused]] bool last_was_long_ = false;
+    RTC::ByteData last_;                ///< the last result of get()
+    std::vector<std::byte> transcoded_; ///< kept for its memory
+    shm::MessageSnapshot snapshot_;     ///< of a long message that is read more than once
     process::LogThrottle undecodable_;
 };
 

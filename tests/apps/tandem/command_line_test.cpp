@@ -17,13 +17,8 @@ namespace {
 
 /// Runs a script in a bash that has read the completion script which was built with the program.
 std::string in_bash(const std::string& script) {
-    const std::string command = "bash --norc -c 'source " COMPLETION_FILE "; " + script + "' 2>&1";
-    std::FILE* pipe = popen(command.c_str(), "r");
-    REQUIRE(pipe != nullptr);
-    std::string output;
-    for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) output.push_back(static_cast<char>(c));
-    pclose(pipe);
-    return output;
+    const std::string commands = "source " COMPLETION_FILE "; " + script;
+    return tandem::process::run_command({"bash", "--norc", "-c", commands}, {.merge_errors = true}).output;
 }
 
 /// Returns the words that bash offers when TAB is pressed after these words; the last one may be incomplete

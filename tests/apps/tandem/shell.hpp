@@ -2,10 +2,10 @@
 // Commands as a user types them, each bounded.
 #pragma once
 
-#include <array>
-#include <cstdio>
+#include "host/process/run_command.hpp"
+
+#include <chrono>
 #include <string>
-#include <sys/wait.h>
 
 namespace tandem::test {
 
@@ -14,15 +14,11 @@ struct CommandOutput {
     std::string output; ///< standard output and error
 };
 
-/// By bash; no single quotes in the command.
+/// Executes a command line of bash.
 inline CommandOutput shell(const std::string& command) {
-    std::FILE* pipe = popen(("exec bash -c '" + command + "' 2>&1 </dev/null").c_str(), "r");
-    if (!pipe) return {-1, "no shell"};
-    std::string output;
-    std::array<char, 4096> chunk;
-    while (const auto got = std::fread(chunk.data(), 1, chunk.size(), pipe)) output.append(chunk.data(), got);
-    const int status = pclose(pipe);
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, output};
+    const auto result = process::run_command({"bash", "-c", command},
+                                             {.timeout = std::chrono::minutes(5), .merge_errors = true});
+    return {result.exit_code(), result.output};
 }
 
 /// Runs a host until it has printed `ready` and `expected`, then ends it cleanly. `host` may have arguments.

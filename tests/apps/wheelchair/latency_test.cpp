@@ -143,5 +143,5 @@ TEST_CASE("a thread whose core is free has not waited for it") {
     CHECK_FALSE(wait.seconds_since_last_call() < 0);
     std::thread([&] {
         CHECK(wait.seconds_since_last_call() == 0);
-    }).join(); // another thread's count begins anew
+    }).join(); // another thread's count starts at 0
 }

@@ -29,7 +29,7 @@ TEST_CASE("a library whose try was not begun is tried when its result is asked f
     CHECK_THROWS_AS(probes.finish(crashing), Error);
 }
 
-TEST_CASE("a library that has been built anew since its last result is tried again") {
+TEST_CASE("a library that was rebuilt after its last result is tried again") {
     const Folder folder;
     const auto library = folder.path() / "Component.so";
     std::filesystem::copy_file(OPROS_PLUGIN, library);

@@ -2,6 +2,8 @@
 // An InterceptorComp that was built against OpenRTM-aist's public API alone.
 #include "two_hosts.hpp"
 
+#include "host/process/run_command.hpp"
+
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <fstream>
@@ -68,22 +70,22 @@ TEST_CASE(
     hosts.start_opros();
     REQUIRE(hosts.says("rtm", "OPRoS component Motor is shown as an RTC"));
     REQUIRE(hosts.says("rtm", "OPRoS component Pump is shown as an RTC"));
-    const auto succeeds = [&](const std::string& arguments) {
-        const auto command = TANDEM_PROGRAM " rtm " + arguments + " --manager 127.0.0.1:" + manager +
-                             " > /dev/null 2>&1"; // until the components are ACTIVE
-        for (int i = 0; i < 100; ++i) {
-            if (std::system(command.c_str()) == 0) return true;
+    const auto succeeds = [&](std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), {TANDEM_PROGRAM, "rtm"});
+        arguments.insert(arguments.end(), {"--manager", "127.0.0.1:" + manager});
+        for (int i = 0; i < 100; ++i) { // until the components are ACTIVE
+            if (tandem::process::run_command(arguments).succeeded()) return true;
             std::this_thread::sleep_for(std::chrono::milliseconds(100));
         }
         return false;
     };
-    CHECK(succeeds("connect Motor:torque Pump:speed"));
-    CHECK(succeeds("inject Motor:speed 3"));
+    CHECK(succeeds({"connect", "Motor:torque", "Pump:speed"}));
+    CHECK(succeeds({"inject", "Motor:speed", "3"}));
     CHECK(hosts.says("opros", "Motor torque 6.0"));
     CHECK(hosts.says("opros", "Pump torque 60.0"));
-    CHECK(succeeds("deactivate Motor"));
+    CHECK(succeeds({"deactivate", "Motor"}));
     CHECK(hosts.says("opros", "Motor stopped"));
-    CHECK(succeeds("activate Motor"));
+    CHECK(succeeds({"activate", "Motor"}));
     CHECK(hosts.stop_both());
     CHECK_FALSE(hosts.left_in_shared_memory());
 }

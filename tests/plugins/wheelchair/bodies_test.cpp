@@ -224,7 +224,7 @@ TEST_CASE("with the clock arrival a message that the network has held back is as
     CHECK(sent.of(5000.01, 1.03) == Approx(1.01));
     CHECK(sent.of(5000.02, 1.015) == Approx(1.015)); // the quickest
     CHECK(sent.of(5000.1, 1.5) == Approx(1.095));
-    // The sender's machine was switched off and on: its clock began anew.
+    // The sender's machine was switched off and on: its clock started again.
     CHECK(sent.of(3.0, 20.0) < 20.0 - 4000.0);
     CHECK(sent.of(9.0, 26.0) == Approx(26.0));
     CHECK(sent.of(9.01, 26.3) == Approx(26.01));

@@ -63,7 +63,7 @@ export class KeyedList {
 // The monitor may not know a number yet, for example a rate after the first reading. The page shows a dash then.
 const isNumber = (value) => typeof value === 'number' && !Number.isNaN(value);
 
-/** Formats a number with so many digits behind the point. */
+/** Formats a number with this many digits after the point. */
 export const fixed = (value, digits) => isNumber(value) ? value.toFixed(digits) : '–';
 
 /** Formats a number with three digits, without an exponent. */

@@ -49,7 +49,7 @@ void ComponentHost::PublishedState::publish_reason() {
     if (in_error_ && !reason_.empty()) notice_.emplace(process::NoticeKind::component, reason_);
 }
 
-// The reason is there before the state, so that observers of the state see it, too.
+// Publishes the reason before the state, so that an observer that sees the state sees the reason, too.
 void ComponentHost::PublishedState::stateChanged(LifecycleState state) {
     const std::lock_guard lock(mutex_);
     const bool in_error = state == OPROS_CS_ERROR;

@@ -98,7 +98,7 @@ void RTObjectStateMachine::noteFailure() {
     if (local_ != nullptr) failure_ = RTC::take_callback_failure(local_);
 }
 
-// The reason is there before the state, so that observers of the state see it, too.
+// Publishes the reason before the state, so that an observer that sees the state sees the reason, too.
 void RTObjectStateMachine::publish(LifeCycleState state) {
     if (state == ERROR_STATE && !failure_.empty())
         reason_.emplace(tandem::process::NoticeKind::component, name_ + ": " + failure_);

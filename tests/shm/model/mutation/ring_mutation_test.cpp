@@ -47,7 +47,7 @@ const std::vector<Spared> spared{
      "tail.compare_exchange_strong(from, to,",
      failure,
      {},
-     "everything is read anew, with acquire"},
+     "everything is read again, with acquire"},
     {consumer, "position_ = shared.tail.load(", order, {}, start},
     {"chunk_lease.hpp",
      "ring.chunk_words[i].returned.store(sequence - 1",
