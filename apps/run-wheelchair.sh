@@ -22,8 +22,9 @@ out=${out:-$root/build/wheelchair}
 called_from=$PWD
 
 install_missing_packages
-# Only for a new build folder. Compiling several files at once reduces the time to a third.
-cmake_options=(-DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=32)
+# Only for a new build folder. Compiling several files at once reduces the time to a third. Files of a test share local names and
+# cannot be compiled together.
+cmake_options=(-DTANDEM_BUILD_TESTS=OFF -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=32)
 # Without options, the run is mixed and needs fewer components.
 if [ ${#arguments[@]} -eq 0 ]; then build_preset release wheelchair_demo; else build_preset release wheelchair_all; fi
 if [ $build_only = yes ]; then exit 0; fi

@@ -79,7 +79,7 @@ print_steps() { if [ -t 1 ]; then printf '\r   %s ' "$1"; else printf '   %s\n' 
 
 # build_preset PRESET [TARGET ...]
 # Configures build/PRESET if it is new, with the options in the array `cmake_options`, and builds the targets (default:
-# all). Without options, each file is compiled separately, even in a folder that run-wheelchair.sh configured.
+# all). Without options, each file is compiled separately and tests are targets, even in a folder that run-wheelchair.sh configured.
 cmake_options=()
 build_preset() {
     local preset=$1
@@ -91,7 +91,7 @@ build_preset() {
         cmake --preset "$preset" "${cmake_options[@]}" >/dev/null
     elif [ ${#cmake_options[@]} -eq 0 ] && grep -q '^CMAKE_UNITY_BUILD:.*=ON' "build/$preset/CMakeCache.txt"; then
         say "compiling each file by itself: run-wheelchair.sh compiled several at once"
-        cmake --preset "$preset" -DCMAKE_UNITY_BUILD=OFF >/dev/null
+        cmake --preset "$preset" -DCMAKE_UNITY_BUILD=OFF -DTANDEM_BUILD_TESTS=ON >/dev/null
     fi
     say "building preset $preset${*:+: $*}"
     NINJA_STATUS='[%f/%t] ' cmake --build --preset "$preset" ${1:+--target "$@"} | print_progress

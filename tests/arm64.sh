@@ -52,9 +52,7 @@ if [ ! -e $setting/qemu-aarch64 ]; then
             > $setting/register
     fi
 fi
-unity=ON # compiles several files at once, as run-wheelchair.sh does. In other targets, files share names of local functions.
-if [ $# -gt 0 ]; then unity=OFF; fi
-cmake --preset arm64 -DCMAKE_UNITY_BUILD=$unity -DCMAKE_UNITY_BUILD_BATCH_SIZE=32 >/dev/null
+cmake --preset arm64 >/dev/null
 programs=("$@")
 if [ $# -eq 0 ]; then
     # Not test_shm_data_path, which forbids system calls: qemu needs its own.
