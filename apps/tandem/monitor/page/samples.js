@@ -138,7 +138,7 @@ export function portOfKey(key) {
 
 export class SampleStore {
   constructor() {
-    Object.assign(this, {tracks: new Map(), pictures: new Map(), messages: new Map(), users: new Map(), socket: null, retry: 500, skew: 0, refusal: ''});
+    Object.assign(this, {tracks: new Map(), pictures: new Map(), messages: new Map(), users: new Map(), socket: null, retry: 500, skew: 0, refusal: '', leftOut: ''});
   }
 
   /** Sets the ports whose samples `user` needs. The store forgets those that nobody needs. */
@@ -164,7 +164,7 @@ export class SampleStore {
     this.socket = new WebSocket(socketAddress(`api/samples${token ? `?token=${encodeURIComponent(token)}` : ''}`));
     this.socket.binaryType = 'arraybuffer';
     this.socket.onopen = () => {
-      Object.assign(this, {retry: 500, refusal: ''});
+      Object.assign(this, {retry: 500, refusal: '', leftOut: ''});
       this.request();
     };
     this.socket.onmessage = ({data}) => typeof data === 'string' ? this.take(JSON.parse(data)) : this.takePicture(pictureIn(data));
@@ -175,9 +175,10 @@ export class SampleStore {
     };
   }
 
-  take({time_ms: time, ports, error}) {
-    this.refusal = error ?? '';
-    if (error) return;
+  take({time_ms: time, ports, error, left_out: leftOut, most}) {
+    if (leftOut) this.leftOut = leftOut.length === 0 ? '' : `No samples of ${leftOut.map(({port}) => port).join(', ')}: all pages together can plot ${most} ports. Close other pages, or remove their plots.`;
+    this.refusal = error || this.leftOut;
+    if (!ports) return;
     this.skew = time - performance.now();
     for (const {link, owner, port, names, samples, message} of ports) {
       const key = `${link}/${owner}/${port}`, track = this.tracks.get(key);

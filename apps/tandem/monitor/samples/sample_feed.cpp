@@ -82,8 +82,12 @@ void SampleFeed::update_ports() {
         for (const SamplePort& port : client->ports())
             if (shown.count(port.link) != 0) wanted.insert(port);
     std::erase_if(followed_, [&](const auto& followed) { return wanted.count(followed.first) == 0; });
+    left_out_.clear();
     for (const SamplePort& port : wanted)
-        if (followed_.size() < max_ports) followed_.try_emplace(port, port);
+        if (followed_.size() < max_ports)
+            followed_.try_emplace(port, port);
+        else if (followed_.count(port) == 0)
+            left_out_.insert(port);
 }
 
 /// Each look begins with another port, so that none keeps the others from being read.
@@ -121,7 +125,9 @@ void SampleFeed::look() {
 void SampleFeed::send_to(SampleClient& client, std::uint64_t now_ms) {
     std::string json;
     std::vector<std::shared_ptr<const std::string>> frames;
+    std::set<SamplePort> left_out;
     for (const SamplePort& port : client.ports()) {
+        if (left_out_.count(port) != 0) left_out.insert(port);
         const auto found = followed_.find(port);
         if (found == followed_.end()) continue;
         const Followed& followed = found->second;
@@ -129,6 +135,7 @@ void SampleFeed::send_to(SampleClient& client, std::uint64_t now_ms) {
         if (!followed.message.is_null()) json += "," + port_head(port, {{"message", followed.message}}) + "}";
         if (followed.frame != nullptr) frames.push_back(followed.frame);
     }
+    client.left_out(left_out);
     if (!json.empty()) client.samples(now_ms, json);
     std::shuffle(frames.begin(), frames.end(), order_);
     for (const auto& frame : frames) client.picture(frame);

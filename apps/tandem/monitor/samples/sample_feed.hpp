@@ -18,7 +18,6 @@
 #include <random>
 #include <set>
 #include <string>
-#include <tuple>
 #include <vector>
 
 namespace tandem::monitor {
@@ -28,9 +27,7 @@ struct SamplePort {
     std::string link;
     shm::Side owner{};
     std::string name;
-    bool operator<(const SamplePort& other) const {
-        return std::tie(link, owner, name) < std::tie(other.link, other.owner, other.name);
-    }
+    auto operator<=>(const SamplePort&) const = default;
 };
 
 /// Receives the samples of the ports that it follows. [one thread]
@@ -41,6 +38,8 @@ class SampleClient {
     /// `frame`: the newest picture of a followed port, as docs/monitoring.md describes it.
     virtual void picture(const std::shared_ptr<const std::string>& frame) = 0;
     virtual const std::set<SamplePort>& ports() const = 0;
+    /// `ports`: those of its ports that are not read, because the ports of other clients have reached the limit.
+    virtual void left_out(const std::set<SamplePort>& ports) = 0;
 
   protected:
     ~SampleClient() = default;
@@ -50,7 +49,7 @@ class SampleClient {
 /// read in the next round or lost. The clients recognize lost ones by the numbers of the samples. [one thread]
 class SampleFeed {
   public:
-    static constexpr std::size_t max_ports = 64;         ///< of all clients; further ports are not followed
+    static constexpr std::size_t max_ports = 64;         ///< of all clients; further ports are left out
     static constexpr std::size_t max_picture = 16 << 20; ///< bytes of a message that is a picture
 
     /// `state`: returns the newest State, which contains the links. `stop` ends a round early; null: no early end.
@@ -90,6 +89,7 @@ class SampleFeed {
     std::function<const State&()> state_;
     std::set<SampleClient*> clients_;
     std::map<SamplePort, Followed> followed_;
+    std::set<SamplePort> left_out_;
     SamplePort first_;         ///< port that the last look began with
     std::minstd_rand order_{}; ///< of the pictures for a client
 };

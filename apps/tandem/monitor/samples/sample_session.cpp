@@ -70,6 +70,17 @@ void SampleSession::samples(std::uint64_t time_ms, const std::string& json) {
     send(std::make_shared<const std::string>(fmt::format(R"({{"time_ms":{},"ports":[{}]}})", time_ms, json)));
 }
 
+void SampleSession::left_out(const std::set<SamplePort>& ports) {
+    if (ports == left_out_ || queued_bytes() >= max_queued) return;
+    PlainJson list = PlainJson::array();
+    for (const SamplePort& port : ports)
+        list.push_back({{"link", port.link}, {"owner", name_of(port.owner)}, {"port", port.name}});
+    send(std::make_shared<const std::string>(
+        PlainJson{{"left_out", list}, {"most", SampleFeed::max_ports}}.dump(
+            -1, ' ', false, PlainJson::error_handler_t::replace)));
+    left_out_ = ports;
+}
+
 void SampleSession::picture(const std::shared_ptr<const std::string>& frame) {
     if (queued_bytes(true) <= max_queued) send(frame, true);
 }

@@ -23,13 +23,14 @@ class SampleSession final : public WebSocketSession, private SampleClient {
     void samples(std::uint64_t time_ms, const std::string& json) override;
     void picture(const std::shared_ptr<const std::string>& frame) override;
     const std::set<SamplePort>& ports() const override { return ports_; }
+    void left_out(const std::set<SamplePort>& ports) override;
 
     void on_open(const Request& request) override;
     void on_message(const std::string& text, bool binary) override;
     void on_close() override;
 
     Service& service_;
-    std::set<SamplePort> ports_;
+    std::set<SamplePort> ports_, left_out_;
 };
 
 } // namespace tandem::monitor

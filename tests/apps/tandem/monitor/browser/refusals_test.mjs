@@ -45,6 +45,21 @@ test("a range whose ends are exchanged is told", async () => {
   await textIs("#plots-note", /^$/);
 });
 
+test("ports whose samples are left out are told, until they are read again", async () => {
+  await page.evaluate(async () => {
+    const { SampleStore } = await import(new URL("samples.js", document.baseURI).href);
+    const store = new SampleStore();
+    store.take({ left_out: [{ link: "made", owner: "first", port: "speed" }], most: 64 });
+    const told = store.refusal;
+    store.take({ time_ms: 1, ports: [] });
+    window.tellings = [told, store.refusal, (store.take({ left_out: [], most: 64 }), store.refusal)];
+  });
+  const [first, kept, last] = await page.evaluate(() => window.tellings);
+  assert.match(first, /^No samples of speed: all pages together can plot 64 ports/);
+  assert.equal(kept, first);
+  assert.equal(last, "");
+});
+
 test("plots whose samples do not come any more are told, until they come again", async () => {
   await page.evaluate(() => sessionStorage.setItem("tandem-plots", JSON.stringify([{ seconds: 10, range: null, own: true, curves: [{ key: "made/first/out", name: "data", form: "value" }] }])));
   await page.reload();

@@ -234,6 +234,33 @@ TEST_CASE("ports of links that the monitor does not show are not followed") {
     }
 }
 
+TEST_CASE("a client hears which of its ports are left out, until those of other clients are fewer") {
+    const Pair pair;
+    std::vector<std::string> names;
+    for (int i = 0; i < 66; ++i) names.push_back(fmt::format("port{:02}", i));
+    add_ports(*pair.first, names);
+    const RunningMonitor monitor(pair.link.name);
+    const auto some = [&](std::size_t begin, std::size_t end) {
+        return follow(pair.link.name, {names.begin() + begin, names.begin() + end}).dump();
+    };
+    std::vector<std::unique_ptr<Live>> pages;
+    for (std::size_t i = 0; i < 4; ++i) {
+        pages.push_back(std::make_unique<Live>(monitor, 0, "/api/samples"));
+        pages.back()->send(some(16 * i, 16 * i + 16));
+        pages.back()->send(R"({"follow": 0})");
+        REQUIRE(pages.back()->next().contains("error")); // the request before it has been read as well
+    }
+    Live late(monitor, 0, "/api/samples");
+    late.send(some(62, 66));
+    const Json told = late.next();
+    CHECK(told["most"] == 64);
+    REQUIRE(told["left_out"].size() == 2);
+    CHECK(told["left_out"][0] == Json{{"link", pair.link.name}, {"owner", "first"}, {"port", "port64"}});
+    CHECK(told["left_out"][1]["port"] == "port65");
+    pages[0]->send(R"({"follow": []})");
+    CHECK(late.next()["left_out"].empty());
+}
+
 TEST_CASE("messages with an any are not plotted: they may be long beyond their bytes") {
     const Pair pair, other;
     const auto rings = add_ports(*pair.first, {"speed"}), others = add_ports(*other.first, {"speed"}, "v");
