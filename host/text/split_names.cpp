@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/text/split_names.hpp"
 
+#include <iterator>
+#include <sstream>
+
 namespace tandem::text {
 
 std::vector<std::string> split_names(const std::string& text) {
@@ -12,6 +15,11 @@ std::vector<std::string> split_names(const std::string& text) {
             names.back() += c;
     std::erase(names, "");
     return names;
+}
+
+std::vector<std::string> split_words(const std::string& text) {
+    std::istringstream stream(text);
+    return {std::istream_iterator<std::string>(stream), {}};
 }
 
 } // namespace tandem::text

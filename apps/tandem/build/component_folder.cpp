@@ -2,12 +2,12 @@
 #include "apps/tandem/build/component_folder.hpp"
 #include "apps/tandem/output/format.hpp"
 #include "apps/tandem/output/print.hpp"
+#include "host/text/split_names.hpp"
 
+#include <algorithm>
 #include <cctype>
 #include <fstream>
-#include <set>
 #include <stdexcept>
-#include <string_view>
 
 namespace tandem::command {
 namespace {
@@ -15,21 +15,14 @@ namespace {
 namespace fs = std::filesystem;
 
 // Keywords of C++20, macros that every source sees, and std: none of them can be the name of a class.
-const std::set<std::string_view> cpp_keywords{
-    "alignas",     "alignof",  "and",        "and_eq",    "asm",       "auto",         "bitand",
-    "bitor",       "bool",     "break",      "case",      "catch",     "char",         "char8_t",
-    "char16_t",    "char32_t", "class",      "co_await",  "co_return", "co_yield",     "compl",
-    "concept",     "const",    "const_cast", "consteval", "constexpr", "constinit",    "continue",
-    "decltype",    "default",  "delete",     "do",        "double",    "dynamic_cast", "else",
-    "enum",        "explicit", "export",     "extern",    "false",     "float",        "for",
-    "friend",      "goto",     "if",         "inline",    "int",       "long",         "mutable",
-    "namespace",   "new",      "noexcept",   "not",       "not_eq",    "nullptr",      "operator",
-    "or",          "or_eq",    "private",    "protected", "public",    "register",     "reinterpret_cast",
-    "requires",    "return",   "short",      "signed",    "sizeof",    "static",       "static_assert",
-    "static_cast", "std",      "struct",     "switch",    "template",  "this",         "thread_local",
-    "throw",       "true",     "try",        "typedef",   "typeid",    "typename",     "union",
-    "unsigned",    "using",    "virtual",    "void",      "volatile",  "wchar_t",      "while",
-    "xor",         "xor_eq",   "NULL",       "EOF"};
+constexpr const char* cpp_keywords = R"(
+    alignas alignof and and_eq asm auto bitand bitor bool break case catch char char8_t char16_t char32_t
+    class co_await co_return co_yield compl concept const const_cast consteval constexpr constinit continue
+    decltype default delete do double dynamic_cast else enum explicit export extern false float for friend
+    goto if inline int long mutable namespace new noexcept not not_eq nullptr operator or or_eq private
+    protected public register reinterpret_cast requires return short signed sizeof static static_assert
+    static_cast std struct switch template this thread_local throw true try typedef typeid typename union
+    unsigned using virtual void volatile wchar_t while xor xor_eq NULL EOF )";
 
 } // namespace
 
@@ -42,7 +35,8 @@ void require_component_name(const std::string& name) {
         throw std::runtime_error("'" + replace_nonprintable(name) +
                                  "' is not a valid component name: expected letters, digits and _ as in a "
                                  "C++ class name, for example LaserFilter");
-    if (cpp_keywords.count(name) != 0)
+    const auto keywords = text::split_words(cpp_keywords);
+    if (std::find(keywords.begin(), keywords.end(), name) != keywords.end())
         throw std::runtime_error("'" + name + "' is not a valid component name: it is a C++ keyword");
 }
 

@@ -1,20 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/build/missing_names.hpp"
 #include "apps/tandem/build/first_error.hpp"
+#include "host/text/split_names.hpp"
 
-#include <iterator>
-#include <set>
+#include <algorithm>
 #include <sstream>
 
 namespace tandem::command {
-namespace {
-
-std::set<std::string> words(const std::string& text) {
-    std::istringstream stream(text);
-    return {std::istream_iterator<std::string>(stream), {}};
-}
-
-} // namespace
 
 std::map<std::string, std::string> missing_names(const std::string& output) {
     static const std::map<std::string, std::string> declarations{
@@ -45,18 +37,17 @@ std::map<std::string, std::string> missing_names(const std::string& output) {
 }
 
 bool is_windows_name(const std::string& name) {
-    static const auto names =
-        words("_getch _kbhit _sleep _T ClearCommError CloseHandle closesocket CoInitialize CoInitializeEx "
-              "COMMTIMEOUTS CP_ACP CP_UTF8 CreateEvent CreateFile CreateMutex CreateThread "
-              "CRITICAL_SECTION CString DCB EnterCriticalSection FreeLibrary GENERIC_READ "
-              "GetAsyncKeyState GetCommState GetLastError GetProcAddress GetTickCount HANDLE HINSTANCE "
-              "HMODULE HRESULT HWND InitializeCriticalSection INVALID_HANDLE_VALUE kbhit LARGE_INTEGER "
-              "LoadLibrary LoadLibraryA LoadLibraryW LPCSTR LPCTSTR LPCWSTR LPSTR LPTSTR LPVOID LPWSTR "
-              "MessageBox MultiByteToWideChar OutputDebugString PurgeComm QueryPerformanceCounter "
-              "QueryPerformanceFrequency ReleaseMutex SetCommState SetCommTimeouts SetEvent SOCKET "
-              "TCHAR timeGetTime WaitForSingleObject WideCharToMultiByte WINAPI WSADATA WSAStartup "
-              "ZeroMemory");
-    return names.count(name) != 0;
+    static const auto names = text::split_words(R"(
+        _getch _kbhit _sleep _T ClearCommError CloseHandle closesocket CoInitialize CoInitializeEx
+        COMMTIMEOUTS CP_ACP CP_UTF8 CreateEvent CreateFile CreateMutex CreateThread CRITICAL_SECTION
+        CString DCB EnterCriticalSection FreeLibrary GENERIC_READ GetAsyncKeyState GetCommState
+        GetLastError GetProcAddress GetTickCount HANDLE HINSTANCE HMODULE HRESULT HWND
+        InitializeCriticalSection INVALID_HANDLE_VALUE kbhit LARGE_INTEGER LoadLibrary LoadLibraryA
+        LoadLibraryW LPCSTR LPCTSTR LPCWSTR LPSTR LPTSTR LPVOID LPWSTR MessageBox
+        MultiByteToWideChar OutputDebugString PurgeComm QueryPerformanceCounter
+        QueryPerformanceFrequency ReleaseMutex SetCommState SetCommTimeouts SetEvent SOCKET TCHAR
+        timeGetTime WaitForSingleObject WideCharToMultiByte WINAPI WSADATA WSAStartup ZeroMemory )");
+    return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 } // namespace tandem::command

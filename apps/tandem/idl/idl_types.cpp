@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/idl/idl_types.hpp"
+#include "apps/tandem/output/idl_identifier.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
-#include <set>
 #include <sstream>
 #include <stdexcept>
 
@@ -285,20 +284,6 @@ std::string idl_scoped_name(const std::string& name) {
     const auto end = name.find("::");
     const std::string first = "::" + idl_identifier(name.substr(0, end));
     return end == std::string::npos ? first : first + idl_scoped_name(name.substr(end + 2));
-}
-
-std::string idl_identifier(const std::string& name) {
-    static const std::set<std::string> words{
-        "abstract", "any",      "attribute", "boolean",   "case",    "char",   "const",       "context",
-        "default",  "double",   "enum",      "exception", "factory", "false",  "fixed",       "float",
-        "in",       "inout",    "interface", "local",     "long",    "module", "native",      "object",
-        "octet",    "oneway",   "out",       "private",   "public",  "raises", "readonly",    "sequence",
-        "short",    "string",   "struct",    "supports",  "switch",  "true",   "truncatable", "typedef",
-        "union",    "unsigned", "valuebase", "valuetype", "void",    "wchar",  "wstring",     "custom"};
-    std::string lower = name;
-    std::transform(lower.begin(), lower.end(), lower.begin(),
-                   [](unsigned char c) { return std::tolower(c); });
-    return words.count(lower) ? "_" + name : name;
 }
 
 } // namespace tandem::command

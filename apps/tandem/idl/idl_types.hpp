@@ -59,8 +59,6 @@ class IdlTypes {
     std::vector<Declaration> declarations_;
 };
 
-/// Returns an IDL identifier for a C++ name. IDL keywords get a leading underscore.
-std::string idl_identifier(const std::string& name);
 /// Converts each part of `A::b` with idl_identifier() and prepends `::`.
 std::string idl_scoped_name(const std::string& name);
 /// Encloses `text` in the modules of `scope`, for example `A::B`.

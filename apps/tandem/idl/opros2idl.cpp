@@ -2,6 +2,7 @@
 #include "apps/tandem/idl/commands.hpp"
 #include "apps/tandem/idl/idl_types.hpp"
 #include "apps/tandem/output/format.hpp"
+#include "apps/tandem/output/idl_identifier.hpp"
 #include "apps/tandem/output/print.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/observe/message_idl.hpp"
-
+#include "apps/tandem/output/idl_identifier.hpp"
 #include "proxy/wire/visit.hpp"
 
 #include <fmt/format.h>
@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdint>
-#include <iterator>
 #include <set>
 #include <string_view>
 
@@ -18,28 +17,12 @@ namespace {
 using wire::Kind;
 using wire::Type;
 
-/// Returns an IDL identifier for a word. Keywords get a leading underscore.
+/// Returns an IDL identifier for any text.
 std::string identifier(std::string_view text) {
-    static const std::set<std::string_view> keywords{
-        "abstract",   "any",         "attribute", "bitfield",  "bitmask",    "bitset",     "boolean",
-        "case",       "char",        "component", "connector", "const",      "consumes",   "context",
-        "custom",     "default",     "double",    "emits",     "enum",       "exception",  "factory",
-        "false",      "finder",      "fixed",     "float",     "getraises",  "home",       "import",
-        "in",         "inout",       "int16",     "int32",     "int64",      "int8",       "interface",
-        "local",      "long",        "manages",   "map",       "mirrorport", "module",     "multiple",
-        "native",     "object",      "octet",     "oneway",    "out",        "port",       "porttype",
-        "primarykey", "private",     "provides",  "public",    "publishes",  "raises",     "readonly",
-        "sequence",   "setraises",   "short",     "string",    "struct",     "supports",   "switch",
-        "true",       "truncatable", "typedef",   "typeid",    "typename",   "typeprefix", "uint16",
-        "uint32",     "uint64",      "uint8",     "union",     "unsigned",   "uses",       "valuebase",
-        "valuetype",  "void",        "wchar",     "wstring"};
     std::string word;
     for (const char c : text) word += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
     if (word.empty() || std::isdigit(static_cast<unsigned char>(word[0])) != 0) word = "m" + word;
-    std::string lower;
-    std::transform(word.begin(), word.end(), std::back_inserter(lower),
-                   [](unsigned char c) { return std::tolower(c); });
-    return keywords.contains(lower) ? "_" + word : word;
+    return idl_identifier(word);
 }
 
 /// Returns `IDL:RTC/TimedDoubleSeq:1.0` as RTC::TimedDoubleSeq, and any other name as one identifier.

@@ -2,13 +2,12 @@
 #include "host/opros/engine/profile/type_profile.hpp"
 
 #include "host/opros/engine/profile/xml_file.hpp"
+#include "host/text/split_names.hpp"
 
 #include <algorithm>
 #include <charconv>
-#include <iterator>
 #include <optional>
 #include <set>
-#include <sstream>
 
 namespace tandem::engine {
 namespace {
@@ -21,11 +20,6 @@ std::size_t parameter_index(const XmlFile& xml, const pugi::xml_node& parameter,
     if (!text.empty() && std::from_chars(text.data(), end, index).ptr != end)
         xml.fail(parameter, "index of a <param> is '" + text + "', expected a number of at least 0");
     return index;
-}
-
-std::vector<std::string> words(const std::string& text) {
-    std::istringstream stream(text);
-    return {std::istream_iterator<std::string>(stream), {}};
 }
 
 std::string read_direction(const XmlFile& xml, const pugi::xml_node& parameter) {
@@ -42,7 +36,7 @@ MethodProfile read_method(const XmlFile& xml, const pugi::xml_node& node) {
                          XmlFile::trim(node.attribute("call_type").value()),
                          {},
                          XmlFile::trim(node.attribute("attribute").value()),
-                         words(node.attribute("raises").value())};
+                         text::split_words(node.attribute("raises").value())};
     if (method.return_type.empty()) method.return_type = "void";
     std::vector<std::pair<std::size_t, ParameterProfile>> indexed;
     for (const pugi::xml_node& parameter : node.children("param")) {
