@@ -25,7 +25,7 @@ void add_record_commands(CLI::App& tandem, Action& selected) {
         "Copies the messages from shared memory without notifying or delaying either host. Hosts may start,\n"
         "stop and restart during the recording. Ends with Ctrl-C, SIGTERM or SIGHUP. If the recorder is "
         "killed,\n"
-        "the file is readable up to the last half second. An existing file is not replaced.\n"
+        "the file is readable up to the last half second. A file that is not empty is not replaced.\n"
         "Exit code 1 if a link or a port did not exist during the recording, or if the file cannot take all\n"
         "messages.\n"
         "Each port becomes a channel /LINK/PORT with its type as IDL. The channel /LINK/tandem/drops counts\n"

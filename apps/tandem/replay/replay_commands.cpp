@@ -22,8 +22,8 @@ void add_replay_command(CLI::App& tandem, Action& selected) {
         "--lockstep --record reproduces the same bytes.\n"
         "--check compares each answer with the recorded one and prints the first difference with its tick\n"
         "and member.\n"
-        "Exit code 1 if an answer differs, a recorded type has changed, or no host is running that receives\n"
-        "the replay.");
+        "Exit code 1 if an answer differs, --check has nothing to compare, a recorded type has changed, a\n"
+        "part of the recording cannot be read, or no host is running that receives the replay.");
     command->add_option("FILE", options->file, "recording made by tandem record")->required();
     command
         ->add_option(
