@@ -24,7 +24,7 @@ struct TickThread : std::enable_shared_from_this<TickThread> {
     bool delays_members() const;
     void add(const std::shared_ptr<SharedTick>& tick);
     void remove(const SharedTick& tick);
-    /// Returns true at the second look that finds one cycle running for longer than any may delay the others. `now`: in ns.
+    /// Returns true if two calls in a row find the same cycle running, and it delays others for too long. `now`: in ns.
     bool hangs(std::int64_t now);
 
     const SharedTickOptions options;

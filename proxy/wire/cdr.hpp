@@ -270,12 +270,12 @@ class CdrReader {
         ok_ = false;
         return 0;
     }
-    /// Reads the next `bytes` bytes, from a multiple of `alignment` on; empty if the message ends before.
+    /// Reads `bytes` bytes from the next multiple of `alignment`; empty if the message is too short.
     std::span<const std::byte> get_block(std::size_t bytes, std::size_t alignment) {
         if (!align(alignment) || !skip(bytes)) return {};
         return in_.subspan(position_ - bytes, bytes);
     }
-    /// Reads the elements of a sequence, `element_bytes` each; empty if there are none or the message ends before.
+    /// Reads the elements of a sequence, `element_bytes` each; empty if there are none or the message is too short.
     std::span<const std::byte> get_sequence(std::size_t element_bytes, std::size_t alignment) {
         const std::size_t head = (position_ + 3) & ~std::size_t{3},
                           behind_head = head + sizeof(std::uint32_t);

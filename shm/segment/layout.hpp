@@ -248,7 +248,7 @@ static_assert(sizeof(ChunkWords) == line_pair);
 // replies: the caller may have seen the claim.
 //
 // A worker that finds the request word changed while the call runs knows that nobody waits for its results any more. It
-// may stop, and has to answer all the same.
+// may stop early, but must still answer.
 //
 // Which slots are idle is known to the callers' process alone: all callers live in one process, its death ends them
 // all, and the generation of a dead process gets no other callers. So nothing has to be cleaned up after it.
@@ -321,7 +321,7 @@ struct BasicCallQueueHeader {
     Atomic<std::uint64_t> timeouts;                      // given up at the deadline
     Atomic<std::uint64_t> cancels;                       // given up before it
     Atomic<std::uint64_t> worker_wakes;                  // system calls to wake a worker
-    // The same, counted by the server's side.
+    // Rare events that the server's side counts.
     alignas(line_pair) Atomic<std::uint64_t> expired; // taken after the deadline, not run
     Atomic<std::uint64_t> caller_wakes;               // system calls to wake a caller
 };

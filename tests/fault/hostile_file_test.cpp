@@ -100,7 +100,7 @@ TEST_CASE("with the guard a file that is cut while in use ends no process and su
             first.reset();
             second.reset();
             if (!link.files().empty()) return 4;
-            // The next generation is as good as new.
+            // The damage does not affect the next generation.
             first = join(link, Side::first, small(file_arena));
             second = join(link, Side::second, small(file_arena));
             return first->peer_state() == PeerState::alive ? 0 : 5;

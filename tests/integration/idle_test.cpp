@@ -77,7 +77,7 @@ struct WaitingHosts : TwoHosts {
                     difference[fmt::format("{} {}", host, thread)] = more;
         return difference;
     }
-    /// The same of the first second without any; of the last one when there is none for long.
+    /// Waits up to 30 s for a second without context switches. Returns those of the last second.
     std::map<std::string, long> switches_when_settled() const {
         std::map<std::string, long> switches;
         for (int second = 0; second < 30; ++second)

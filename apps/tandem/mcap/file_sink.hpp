@@ -39,8 +39,8 @@ class FileSink : public Sink {
     /// Considers the file system and the limit of the process (`ulimit -f`).
     void reserve(std::uint64_t size) override;
     bool truncate(std::uint64_t size) override;
-    /// Flushes and closes the file when it is on the disk. Throws Error, also for errors that the file system reports
-    /// only then.
+    /// Flushes the file, waits until it is on the disk, and closes it. Throws Error, including for errors that the file
+    /// system reports only then.
     void close();
     /// Removes the file.
     void discard();

@@ -24,7 +24,7 @@ class NewFile {
 
     int descriptor() const { return descriptor_; }
     bool is_regular() const { return regular_; } ///< not a device or pipe
-    /// Gives the file its name and closes it. Throws Error, also if the name has been taken meanwhile.
+    /// Gives the file its name and closes it. Throws Error, for example if another file has taken the name.
     void close();
     /// Closes the file and removes it. An empty file that existed before becomes empty again.
     void discard();

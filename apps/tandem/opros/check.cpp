@@ -220,7 +220,7 @@ class Findings {
         notes.insert(notes.end(), lines.begin(), lines.end());
     }
     std::vector<std::string> lines; ///< errors: with them, the application does not do what the profiles say
-    std::vector<std::string> notes; ///< findings with which the application runs all the same
+    std::vector<std::string> notes; ///< findings that do not keep the application from running
     /// Lines about components whose ports are currently unknown.
     std::vector<std::string> unknown;
     std::set<std::string> unknown_components;

@@ -23,8 +23,8 @@ class ReplayPeer final : private link::LinkHandler {
                Comparison* check);
     ~ReplayPeer() override { close(); }
 
-    /// Joins the link; the peer may join later. Throws shm::Error with one line, also if another process
-    /// has this side.
+    /// Joins the link; the peer may join later. Throws shm::Error with one line, for example if another
+    /// process has this side.
     void open();
     /// Waits until the peer has joined, its ports have the recorded types, and the components of both sides
     /// are active. Throws std::runtime_error with one line.

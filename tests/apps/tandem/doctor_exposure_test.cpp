@@ -157,7 +157,7 @@ TEST_CASE_METHOD(FakeMachine, "an rtc.conf of a running host that cannot be read
     check(results, "rtm_host (pid 12): settings", CheckStatus::warning, "unknown");
 }
 
-TEST_CASE_METHOD(FakeMachine, "a running monitor is shown with its address and whether it controls") {
+TEST_CASE_METHOD(FakeMachine, "a running monitor is shown with its address and whether it allows control") {
     process(20, "tandem", {"tandem", "monitor"}, "0100007F:1F90");
     process(21, "tandem", {"tandem", "monitor", "--bind", "::", "--control"},
             "00000000000000000000000000000000:1F91");

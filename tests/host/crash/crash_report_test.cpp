@@ -40,7 +40,7 @@ CommandResult run_rtm(const std::string& fault) {
     return tandem::process::run_command({TANDEM_RTM_HOST, "-f", conf});
 }
 
-/// Does the same with opros_host.
+/// Runs opros_host with three tanks, of which the second one has the fault.
 CommandResult run_opros(const std::string& fault) {
     const Folder folder;
     std::string components;
@@ -149,12 +149,10 @@ TEST_CASE("An exception that a thread of a component's own does not catch is nam
     INFO(result.errors);
     CHECK(result.status.signalled);
     CHECK(result.status.code == SIGABRT);
-    CHECK_THAT(
-        result.errors,
-        Contains(
-            std::string(rtm ? "rtm_host" : "opros_host") +
-            ": crashed outside of the callbacks of components: an exception that nobody catches, of type "
-            "std::runtime_error: valve 3 does not answer, in watch_valve at 0x"));
+    CHECK_THAT(result.errors,
+               Contains(std::string(rtm ? "rtm_host" : "opros_host") +
+                        ": crashed outside of the callbacks of components: an uncaught exception of type "
+                        "std::runtime_error: valve 3 does not answer, in watch_valve at 0x"));
     CHECK_THAT(result.errors,
                Contains("watch_valve  (") && Contains(rtm ? "/TankRtc.so +0x" : "/TankComp.so +0x"));
 }

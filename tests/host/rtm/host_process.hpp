@@ -82,7 +82,7 @@ class HostProcess {
                          std::chrono::milliseconds timeout = std::chrono::seconds(30)) {
         return wait_for_text(output, text, timeout);
     }
-    /// Does the same for standard error.
+    /// Waits up to 30 s until `text` appears on standard error.
     bool wait_for_error(const std::string& text) {
         return wait_for_text(errors, text, std::chrono::seconds(30));
     }

@@ -26,7 +26,7 @@ Bytes bytes_of(const Data& data, bool little_endian = true) {
     return bytes;
 }
 
-/// The same without what omniORB leaves in the bytes between values.
+/// Returns the bytes with `count` zeros from `at`, because omniORB leaves padding between values uninitialized.
 Bytes without_padding(Bytes bytes, std::size_t at, std::size_t count) {
     std::fill_n(bytes.begin() + static_cast<std::ptrdiff_t>(at), count, Bytes::value_type{0});
     return bytes;

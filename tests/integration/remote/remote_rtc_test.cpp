@@ -104,8 +104,8 @@ bool rises(const std::vector<int>& numbers) {
     return std::adjacent_find(numbers.begin(), numbers.end(), std::greater_equal<>()) == numbers.end();
 }
 
-/// The same hosts, with TransitionComp instead of TalkerComp, which makes transitions of Adaptor, and with
-/// ServoRtc0 across the link.
+/// A ForeignHost with ServoRtc0 across the link. TransitionComp, which makes transitions of Adaptor, replaces
+/// TalkerComp.
 class ForeignServo : public ForeignHost {
   public:
     ForeignServo() {

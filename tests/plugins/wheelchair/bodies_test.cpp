@@ -146,7 +146,7 @@ TEST_CASE("an emergency stop requested by service stops the chair and reaches Co
     CHECK(run.control.state() == ControlState::emergency_stop);
 }
 
-TEST_CASE("a deactivated ControlComp leaves no voltage and the brake behind") {
+TEST_CASE("a deactivated ControlComp sets the voltage to zero and applies the brake") {
     const ScratchDir dir;
     Run run(dir, "step20");
     run.steps(300);

@@ -295,7 +295,7 @@ TEST_CASE("the profile of a component may be in the folder above its sources") {
     CHECK_THAT(error_of({folder.path() / "One/src"}), Catch::Contains("no C++ source"));
     CHECK_THAT(error_of({folder.path() / "Two"}), Catch::Contains("no C++ source"));
     CHECK_THAT(error_of({folder.path() / "Three"}),
-               Catch::Contains("no component profile")); // only that of Two
+               Catch::Contains("no component profile")); // the one in the folder above is Two's
 }
 
 // In the style of OPRoS's vision components: OpenCV's C API of 2010.

@@ -35,7 +35,7 @@ coil::Properties properties(const std::string& full_policy, const std::string& e
     return prop;
 }
 
-/// Does the same with both buffers and compares what they return.
+/// Runs each operation on both buffers and compares the results.
 struct Both {
     explicit Both(const coil::Properties& prop) {
         ours.init(prop);
