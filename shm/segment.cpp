@@ -94,7 +94,7 @@ std::optional<std::span<std::byte>> Segment::find_blob(Side owner, const std::st
 std::optional<std::vector<std::byte>> Segment::copy_blob(Side owner, const std::string& name) const {
     const auto memory = find_blob(owner, name);
     if (!memory) return std::nullopt;
-    // A blob has its memory since it was added, so a longer one is none.
+    // A blob has had memory since it was added, so nothing longer than the memory is a blob.
     if (memory->size() > mapping_->memory_bytes())
         throw Error(path() + ": blob '" + name + "' of side " + name_of(owner) + " claims " +
                     std::to_string(memory->size()) + " bytes, more than the file has; restart that side");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two hosts under data, event and call load from both sides, of which one is killed at a random moment, again and again.
+// Two hosts under data, event and call load from both sides. Again and again, one of them is killed at a random moment.
 #include "tests/integration/two_hosts.hpp"
 
 #include "kept_segment.hpp"

@@ -13,7 +13,7 @@ using tandem::test::Result;
 
 namespace {
 
-/// Two hosts, of which the OPRoS host shares its components, and `tandem rtm` for the RTM host.
+/// Two hosts, and `tandem rtm` for the RTM host. The OPRoS host shares its components.
 struct Shared : TwoHosts {
     explicit Shared(const std::string& names = "Motor") : port(unused_port()) {
         leave_out_talker_and_rtc();

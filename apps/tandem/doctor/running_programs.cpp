@@ -35,7 +35,7 @@ Program read_program(const Machine& machine, pid_t pid) {
     return program;
 }
 
-/// Returns the settings of an rtm_host: its rtc.conf (-f), overruled by options -o.
+/// Returns the settings of an rtm_host: its rtc.conf (-f), overridden by options -o.
 RtmSettings read_settings(const Machine& machine, const Program& program, const ReadConf& read_conf) {
     fs::path conf;
     RtmSettings options;

@@ -140,7 +140,7 @@ TEST_CASE_METHOD(FakeMachine, "RemoveIPC is read by logind's rules") {
         file("/etc/systemd/logind.conf", "[Other]\nRemoveIPC=no\n");
         is(check_remove_ipc(machine), CheckStatus::warning, "yes");
     }
-    SECTION("a drop-in overrules the main file") {
+    SECTION("a drop-in file overrides the main file") {
         file("/etc/systemd/logind.conf.d/50-ipc.conf", "[Login]\nRemoveIPC = yes\n");
         is(check_remove_ipc(machine), CheckStatus::warning, "50-ipc.conf");
     }

@@ -27,7 +27,7 @@ struct Folder {
     }
 };
 
-/// Runs rtm_host with three tanks, of which the second one has the fault.
+/// Runs rtm_host with three tanks. The second one has the fault.
 CommandResult run_rtm(const std::string& fault) {
     const Folder folder;
     const std::string conf =
@@ -40,7 +40,7 @@ CommandResult run_rtm(const std::string& fault) {
     return tandem::process::run_command({TANDEM_RTM_HOST, "-f", conf});
 }
 
-/// Runs opros_host with three tanks, of which the second one has the fault.
+/// Runs opros_host with three tanks. The second one has the fault.
 CommandResult run_opros(const std::string& fault) {
     const Folder folder;
     std::string components;

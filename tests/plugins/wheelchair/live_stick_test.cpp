@@ -69,7 +69,7 @@ TEST_CASE("a reader never sees half of a position") {
     CHECK(torn == 0);
 }
 
-TEST_CASE("a scenario takes its stick from a live one, and a file that is none is refused") {
+TEST_CASE("a scenario follows a live stick, and a file that is not one is refused") {
     const StickPath file;
     {
         LiveStick writer(file.path, LiveStick::Role::writer);

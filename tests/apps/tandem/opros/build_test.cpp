@@ -229,7 +229,7 @@ TEST_CASE("an impossible build is reported in one line with the profile's line, 
     CHECK_THAT(last_line({old}), Catch::Contains("Old.xml:4: not well-formed XML"));
 }
 
-TEST_CASE("the file that --profile names is relative to the current folder, as others are") {
+TEST_CASE("a relative path for --profile is resolved against the current folder, like other paths") {
     const Folder folder;
     folder.component("One/Second", "Second.dll");
     folder.component("One/Third", "Third.dll");

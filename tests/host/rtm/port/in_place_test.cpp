@@ -254,7 +254,7 @@ TEST_CASE("A second connection of an OutPort gets long messages as well") {
     ports.rtc.removePort(second);
 }
 
-TEST_CASE("A long message that is none of the type is an error of the reading port") {
+TEST_CASE("A long message that does not fit the port's type is an error of the reading port") {
     ImagePorts ports;
     ports.connect();
     RTC::ByteData garbage;

@@ -186,7 +186,7 @@ TEST_CASE("A ring under a name that a sender does not give is refused before its
                           Catch::Contains("': not a name of a segment for messages"));
 }
 
-TEST_CASE("A ring that the other process has damaged gives nothing more") {
+TEST_CASE("A ring that the other process has damaged delivers no more messages") {
     RTC::MessageRingWriter writer;
     RTC::MessageRingReader reader(writer.link());
     reader.accept_messages(true);
