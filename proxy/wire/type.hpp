@@ -82,7 +82,7 @@ struct Type {
 /// members or 2^24 elements of an array, because signatures come from other processes.
 Type parse_signature(std::string_view signature);
 
-/// Parses the one type, or the member with its name, whose signature begins at `position`, and moves `position` behind it.
+/// Parses the one type, or the member with its name, whose signature begins at `position`, and moves `position` past it.
 /// Throws SignatureError.
 Type parse_next_type(std::string_view text, std::size_t& position);
 

@@ -187,7 +187,7 @@ ReplyView CallClient::State::fail_to_start(CallStart start, std::uint32_t slot, 
                      memory);
 }
 
-/// Waits for a slot behind the callers that came before. The time that a CallControl allows bounds the whole call.
+/// Waits for a slot after the callers that came before. The time that a CallControl allows bounds the whole call.
 ReplyView CallClient::State::begin_in_turn(std::span<const std::byte> arguments, std::uint64_t timeout_ns,
                                            CallTicket& ticket, ResultMemory& memory) {
     const CallControl control = find_control ? find_control() : CallControl{};

@@ -117,7 +117,7 @@ static_assert(offsetof(SideHeader, pid_namespace) == 16 && offsetof(SideHeader, 
 static_assert(offsetof(SideHeader, published) == 256 && offsetof(SideHeader, directory) == 384);
 static_assert(sizeof(SideHeader) == 384 + max_objects * sizeof(DirectoryEntry));
 
-constexpr std::size_t arenas_begin = 139264; // behind both SideHeaders, next page
+constexpr std::size_t arenas_begin = 139264; // after both SideHeaders, next page
 static_assert(page + 2 * sizeof(SideHeader) <= arenas_begin && arenas_begin % page == 0);
 
 // Ring: RingHeader | data[capacity] | chunks, if it has any (below). A position is a 64-bit count of bytes
@@ -149,7 +149,7 @@ struct BasicRingHeader {
     // The writer's line, with its counters: a message touches no more of the header than this line and the reader's.
     alignas(line_pair) Word64 head; // end of the newest record; moved by the writer only
     Word64 newest;                  // start of the newest record; for readers that skip to it
-    // The writer has stored, and stores, nothing at or behind this position. Stored before what it allows: so an observer
+    // The writer has stored, and stores, nothing at or after this position. Stored before what it allows: so an observer
     // knows that what it has copied from `capacity` bytes before it on was whole.
     Word64 write_limit;
     Word64 sent; // counters, see RingCounters
@@ -191,7 +191,7 @@ static_assert(offsetof(RingHeader, age) == 384 && sizeof(RingHeader) == 384 + si
 
 constexpr std::size_t record_header = 16;
 
-// Chunks: behind data, the ChunkWords of all chunks, then the chunks, each at a page of the file. A chunk belongs
+// Chunks: after data, the ChunkWords of all chunks, then the chunks, each at a page of the file. A chunk belongs
 // to the writer until it has published a record that refers to it. It then belongs to the side that takes that
 // record off the ring (the reader to read it, the writer to drop it). The reader gives the chunk back by storing
 // the record's sequence, or, having skipped that record, any later one up to the one before the record it took.
@@ -220,7 +220,7 @@ static_assert(sizeof(ChunkWords) == line_pair);
 //   work     claim (64)  progress        answered
 //
 // What is longer continues in the slot's overflow buffer. A payload longer than short_call_bytes is passed by loan: all of it
-// is in the file behind total_bytes, at (2 * slot + callers) * max_loan_bytes, and is moved by pwrite() and pread(). A process
+// is in the file after total_bytes, at (2 * slot + callers) * max_loan_bytes, and is moved by pwrite() and pread(). A process
 // therefore maps no more than before, touches no page that has no memory, and cannot be stopped by a hole that the peer has
 // made. The caller gives the memory back after the reply. A segment has at most one queue with loans for each calling side.
 //

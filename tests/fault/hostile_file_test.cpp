@@ -69,7 +69,7 @@ TEST_CASE("a file that is shorter than its header says is refused and its observ
     }
 }
 
-TEST_CASE("a file that grows is used as before, because long calls lie behind the segment") {
+TEST_CASE("a file that grows is used as before, because long calls are stored after the segment") {
     Link link;
     auto first = join(link, Side::first, small(file_arena));
     REQUIRE(truncate(first->path().c_str(), whole_file + 4096) == 0);

@@ -24,7 +24,7 @@ bool is_rtm_host(pid_t pid) {
     return name == "rtm_host";
 }
 
-/// Returns the file behind -f of a host's command line, else rtc.conf.
+/// Returns the file after -f in a host's command line, else rtc.conf.
 fs::path rtc_conf_of(pid_t pid) {
     std::ifstream command(proc(pid, "cmdline"), std::ios::binary);
     fs::path conf = "rtc.conf";

@@ -43,7 +43,7 @@ class StampedStream : public cdrStream {
     }
     _CORBA_Boolean maybeReserveOutputSpace(omni::alignment_t, std::size_t) override { throw_marshal(); }
 
-    /// Returns the place of the next `bytes` bytes at this alignment, and moves `cursor` behind them. When the time is used
+    /// Returns the place of the next `bytes` bytes at this alignment, and moves `cursor` past them. When the time is used
     /// up, `cursor` and `end` move to the body.
     std::byte* align_and_advance(void*& cursor, void*& end, std::size_t bytes, omni::alignment_t alignment) {
         if (in_time_ && cursor == end) [[unlikely]]

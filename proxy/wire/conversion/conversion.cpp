@@ -133,7 +133,7 @@ bool Conversion::run_length(const ConversionStep& step, CdrReader& in, CdrWriter
            fail(step, fmt::format("is {}, which its type cannot hold", static_cast<double>(value)));
 }
 
-/// Reduces the count to what the sender's fields state: the elements behind are left out.
+/// Reduces the count to what the sender's fields state: the elements after it are left out.
 bool Conversion::take_first(const ConversionStep& step, std::uint32_t& count, const CdrReader& in) {
     const long double wanted = product(step.extent, in);
     if (!(wanted >= 0 && wanted <= count))

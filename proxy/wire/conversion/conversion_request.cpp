@@ -62,7 +62,7 @@ double parse_factor(std::string_view item, std::string_view text) {
         double factor = 0;
         const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), factor);
         if (error != std::errc() || end != number.data() + number.size() || factor == 0)
-            fail(item, "expected a number other than 0 behind '*'");
+            fail(item, "expected a number other than 0 after '*'");
         return factor;
     }
     const auto arrow = text.find("->");
@@ -79,7 +79,7 @@ double parse_factor(std::string_view item, std::string_view text) {
     return from.factor / to.factor;
 }
 
-/// Removes the word from the beginning of the text, with the spaces behind it. Returns false if the word is not there.
+/// Removes the word from the beginning of the text, with the spaces after it. Returns false if the word is not there.
 bool take_word(std::string_view& text, std::string_view word) {
     if (!text.starts_with(word)) return false;
     const auto rest = text.substr(word.size());
@@ -128,7 +128,7 @@ ConversionRequest::Refusal parse_refusal(std::string_view item, std::string_view
     auto words = split_words(text);
     const bool unless = words.size() > 1 && words[1] == "unless";
     const std::size_t first = unless ? 2 : 1;
-    if (words.size() <= first) fail(item, "expected the sender's field and a word or number behind 'refuse'");
+    if (words.size() <= first) fail(item, "expected the sender's field and a word or number after 'refuse'");
     ConversionRequest::Refusal refusal{words.front(), {}, unless};
     refusal.words.assign(words.begin() + static_cast<std::ptrdiff_t>(first), words.end());
     return refusal;

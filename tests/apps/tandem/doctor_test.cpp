@@ -160,7 +160,7 @@ TEST_CASE_METHOD(FakeMachine, "RemoveIPC is read by logind's rules") {
         machine.probed.user = 120;
         is(check_remove_ipc(machine), CheckStatus::ok, "system user");
     }
-    SECTION("the setting does not matter where systemd is not running") {
+    SECTION("the setting does not matter if systemd is not running") {
         file("/etc/systemd/logind.conf", "[Login]\nRemoveIPC=yes\n");
         std::filesystem::remove_all(machine.path("/run/systemd"));
         is(check_remove_ipc(machine), CheckStatus::ok, "is not running");

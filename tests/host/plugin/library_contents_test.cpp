@@ -140,7 +140,7 @@ TEST_CASE("a library of the wrong model is refused with what it is and which pro
                       Catch::Contains("neither"));
 }
 
-TEST_CASE("what is no library of this machine is refused with its own reason") {
+TEST_CASE("a file that is not a library for this machine is refused, with the specific reason") {
     CHECK(refusal("/nowhere/X.so").reason == Reason::not_found);
     CHECK(refusal("/tmp").reason == Reason::not_found);
     CHECK(refusal("/dev/zero").reason == Reason::not_found);

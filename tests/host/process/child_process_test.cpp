@@ -94,7 +94,7 @@ TEST_CASE("a child whose exit code other code of the process has taken has ended
     CHECK_THAT(child.poll()->text(), Catch::Contains("unknown exit code"));
 }
 
-TEST_CASE("a program that cannot be started is named with the cause, and with a remedy where one is known") {
+TEST_CASE("a program that cannot be started is named with the cause, and with a remedy if one is known") {
     CHECK_THROWS_WITH(ChildProcess({"/no/such/program"}),
                       "/no/such/program cannot be started: No such file or directory");
     CHECK_THAT(tandem::process::NotStarted(EPERM, "/bin/true cannot be watched").what(),

@@ -42,7 +42,7 @@ std::optional<TickSlot> slot_named(const std::string& name) {
 
 } // namespace
 
-TEST_CASE("ticks are counted where another process reads them, and no more when they have ended") {
+TEST_CASE("ticks are counted where another process can read them, until they have ended") {
     {
         PeriodicTick tick({.period = 1ms, .name = "Plant0"});
         for (int i = 0; i < 20; ++i) tick.wait();

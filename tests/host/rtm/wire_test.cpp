@@ -61,7 +61,7 @@ TEST_CASE("An interface and a reference to it have the interface's id and name")
     CHECK(CORBA_Util::toTypename<RTC::TimedLong>() == std::string("TimedLong"));
 }
 
-TEST_CASE("A sequence of doubles is aligned behind its length") {
+TEST_CASE("A sequence of doubles is aligned after its length") {
     RTC::TimedDoubleSeq data;
     data.tm.sec = data.tm.nsec = 0;
     data.data.length(1);

@@ -119,7 +119,7 @@ TEST_CASE("images of 1 MiB and 1080p pass in both directions by default") {
     check_counters(link.b->link.reader("position").counters(), number, number);
 }
 
-TEST_CASE("64 MiB pass in both directions whichever side asks for it") {
+TEST_CASE("64 MiB pass in both directions, whichever side requests them") {
     const bool adaptor_asks = GENERATE(true, false);
     Linked link("huge", adaptor_asks ? large(65 * mib) : LinkOptions{},
                 adaptor_asks ? large(2 * mib) : large(65 * mib));

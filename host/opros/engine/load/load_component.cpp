@@ -14,7 +14,7 @@
 #include <algorithm>
 #include <cctype>
 
-#define MAKE_STATIC_COMPONENT // the host is no component
+#define MAKE_STATIC_COMPONENT // the host is not a component
 #include <ServiceUtils.h>
 #include <TandemAbi.h>
 

@@ -31,7 +31,7 @@ SelectedSources select(const fs::path& folder, CMakeProjects& projects, const So
 
 } // namespace
 
-TEST_CASE("branches of a CMakeLists.txt for other platforms are skipped, also where they set variables") {
+TEST_CASE("branches of a CMakeLists.txt for other platforms are skipped, even if they set variables") {
     const Folder folder;
     folder.write("CMakeLists.txt",
                  "option(FAST \"moves fast (default)\" ON)\noption(SLOW \"moves slowly\" OFF)\n"

@@ -205,7 +205,7 @@ TEST_CASE("a writer without room for the end leaves whole records") {
     }
 }
 
-TEST_CASE("attachments and metadata behind the last chunk are dropped when there is no room") {
+TEST_CASE("attachments and metadata after the last chunk are dropped when there is no room") {
     FullSink sink;
     McapWriter writer(sink, {.library = "test"});
     const auto channel = writer.add_channel("topic", 0, "cdr");

@@ -224,7 +224,7 @@ TEST_CASE("a source whose main() is disabled by a macro is built, and one with a
 }
 
 // Two components in the style of the first templates, whose function has the same name in each; what one of their
-// libraries hands to its own manager is no module, nor is what only a header declares.
+// libraries hands to its own manager is not a module, nor is what only a header declares.
 TEST_CASE("each of several modules in a folder is built from its own sources") {
     const Folder folder;
     const std::string dir = folder.path() / "Rtc";

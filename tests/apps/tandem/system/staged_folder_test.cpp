@@ -85,7 +85,7 @@ TEST_CASE("a system is added to a folder with other files, and to none with the 
     const Folder folder;
     write(folder.path / "run.log", "log");
     write(folder.path / "opros/a.xml", "old");
-    fs::create_directories(folder.path / "rtm"); // an empty one is no side
+    fs::create_directories(folder.path / "rtm"); // an empty folder is not a side
     {
         StagedFolder staged(folder.path);
         CHECK_THROWS_WITH(staged.add_side("opros"),

@@ -59,7 +59,7 @@ TEST_CASE("A change of configuration is seen by onExecute one cycle later, never
     CHECK_THROWS_AS(configuration->activate_configuration_set("none"), SDOPackage::InvalidParameter);
 }
 
-TEST_CASE("A value is refused by the type of the variable, but not where the component converts it itself") {
+TEST_CASE("A value is refused by the type of the variable, unless the component converts it itself") {
     struct Arm : Counter {
         explicit Arm(RTC::Manager* manager) : Counter(manager) {}
         RTC::ReturnCode_t onInitialize() override {

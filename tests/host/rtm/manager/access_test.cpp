@@ -96,7 +96,7 @@ Bytes two_way(const std::string& key, const std::string& operation, const Call& 
 // A request that expects no answer; its sender closes the connection at once.
 Bytes one_way(const std::string& key, const std::string& operation) {
     Bytes message = request(key, operation, {}, 2, false);
-    message[12 + 4] = 0; // response flags of GIOP 1.2, behind the header and the request id
+    message[12 + 4] = 0; // response flags of GIOP 1.2, after the header and the request id
     return message;
 }
 
