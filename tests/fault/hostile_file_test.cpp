@@ -44,7 +44,7 @@ void use_all(Segment& mine, RingWriter& writer, RingReader& reader, CallClient& 
 
 } // namespace
 
-TEST_CASE("a file that is shorter than its header says is refused and its observer says damaged") {
+TEST_CASE("a file that is shorter than its header says is refused, and an observer reports it as damaged") {
     for (const off_t bytes : {off_t{0}, off_t{1}, off_t{87}, off_t{4095}, off_t{4096}, off_t{5000},
                               off_t{layout::arenas_begin}, whole_file - 4096, whole_file - 1}) {
         Link link;
@@ -78,7 +78,7 @@ TEST_CASE("a file that grows is used as before, because long calls are stored af
     CHECK_FALSE(first->superseded());
 }
 
-TEST_CASE("with the guard a file that is cut while in use ends no process and superseded() says to leave") {
+TEST_CASE("with the guard, a file that is truncated in use ends no process, and superseded() returns true") {
     for (const off_t bytes : {off_t{0}, off_t{4096}, off_t{8192}, off_t{layout::arenas_begin},
                               off_t{layout::arenas_begin + 8192}}) {
         Link link;

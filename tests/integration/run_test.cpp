@@ -242,7 +242,7 @@ TEST_CASE("tandem run ends with the host's own message if a host cannot start") 
     CHECK_THAT(run.output(), !Contains("| ready"));
 }
 
-TEST_CASE("tandem run names a component that has not started beside `all hosts are ready`") {
+TEST_CASE("tandem run names a component that has not started along with `all hosts are ready`") {
     Run run;
     std::filesystem::remove(run.folder().path() / "TalkerComp/TalkerComp.so");
     run.start();

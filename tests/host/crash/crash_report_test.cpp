@@ -143,7 +143,7 @@ TEST_CASE("opros_host names the component that crashes, its callback, plugin, fa
     check_block(run_opros(expected.fault), expected, "opros_host", "Tank1", "TankComp.so");
 }
 
-TEST_CASE("An exception that a thread of a component's own does not catch is named with its type and text") {
+TEST_CASE("An uncaught exception in a component's own thread is reported with its type and text") {
     const bool rtm = GENERATE(true, false);
     const CommandResult result = rtm ? run_rtm("own thread") : run_opros("own thread");
     INFO(result.errors);

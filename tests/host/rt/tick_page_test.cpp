@@ -61,7 +61,7 @@ TEST_CASE("ticks are counted where another process can read them, until they hav
     CHECK_FALSE(slot_named("Plant0"));
 }
 
-TEST_CASE("the page tells when the next tick is due, and that none is") {
+TEST_CASE("the page tells when the next tick is due, or that none is") {
     PeriodicTick tick({.period = 1ms, .name = "Plant0"});
     CHECK(slot_named("Plant0")->due_ns == 0);
     tick.wait();

@@ -203,7 +203,7 @@ TEST_CASE("Repository ids are those that tools and peers compare") {
     CHECK(std::string(RTC::ExtendedFsmService::_PD_repoId) == "IDL:omg.org/RTC/ExtendedFsmService:1.0");
 }
 
-TEST_CASE("Names of the name server go to text and back") {
+TEST_CASE("Names of the name server are converted to text and back") {
     const CosNaming::Name name = RTC::CorbaNaming::toName("pc.host_cxt/arm.v2.rtc/x");
     REQUIRE(name.length() == 3);
     CHECK(std::string(name[1].id) == "arm.v2");

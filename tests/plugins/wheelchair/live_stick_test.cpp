@@ -26,7 +26,7 @@ struct StickPath {
 
 } // namespace
 
-TEST_CASE("a live stick is read as it was written, in whole counts within its ends") {
+TEST_CASE("a live stick is read as it was written, in whole counts within its limits") {
     const StickPath file;
     LiveStick writer(file.path, LiveStick::Role::writer);
     const LiveStick reader(file.path, LiveStick::Role::reader);

@@ -260,7 +260,7 @@ TEST_CASE("a generic servant whose target is not ready does not exist for client
     CHECK(target.unknown == "beep");
 }
 
-TEST_CASE("a servant says the truth about its interface, its bases and no others") {
+TEST_CASE("a servant confirms its interface and its bases, and no others") {
     Orb orb;
     ChairServant chair;
     Active active_chair(orb, chair);

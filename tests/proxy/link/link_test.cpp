@@ -75,7 +75,7 @@ TEST_CASE("a listener is called once for arrived messages and not after it was r
     CHECK(calls == 1);
 }
 
-TEST_CASE("the doorbell wakes the notifier for each message, also of a peer that returned") {
+TEST_CASE("the doorbell wakes the notifier for each message, including those of a peer that returned") {
     const auto name = unique_name("doorbell");
     auto a = adaptor(name);
     std::atomic<int> calls{0};

@@ -235,7 +235,7 @@ TEST_CASE("a component profile in another case is found unless there is one in t
     CHECK(find_component_profile(profile, profile.subcomponents[0], {}) == folder.path() / "Arm.xml");
 }
 
-TEST_CASE("a component profile that is nowhere is an error in the line that asks for it") {
+TEST_CASE("a component profile that is not found is an error at the line that refers to it") {
     const Folder folder;
     const auto profile = read_application_profile(folder.application(Folder::sub("A", "A.xml")));
     CHECK_THAT(error_of([&] { find_component_profile(profile, profile.subcomponents[0], {"/plugins"}); }),

@@ -288,7 +288,7 @@ TEST_CASE("Strings are split, trimmed and converted as component sources expect"
     CHECK((coil::stringTo(b, "ON") && b));
 }
 
-TEST_CASE("The active set is what configuration.active_config says and what describes parameters is passed "
+TEST_CASE("The active set is that of configuration.active_config, and descriptions of parameters are passed "
           "through") {
     ManagerFixture fixture;
     auto& counter =

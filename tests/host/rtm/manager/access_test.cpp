@@ -133,7 +133,7 @@ TEST_CASE("A manager opens the TCP port that its settings ask for") {
     CHECK(host.wait_for_error("open by TCP at "));
 }
 
-TEST_CASE("The socket of a manager lies in a folder that other users cannot enter") {
+TEST_CASE("The socket of a manager is in a folder that other users cannot enter") {
     HostProcess host(without_tcp());
     REQUIRE(host.wait_for_output("ready\n"));
     const auto socket = socket_of(host.pid());
@@ -152,8 +152,8 @@ TEST_CASE("The socket of a manager lies in a folder that other users cannot ente
     CHECK((error == -1 || error == EACCES));
 }
 
-TEST_CASE("The socket of a killed manager accepts no connection, also while a helper lives that one of its "
-          "components has forked") {
+TEST_CASE("The socket of a killed manager accepts no connection, even while a helper forked by one of its "
+          "components lives") {
     auto arguments = without_tcp();
     arguments.insert(arguments.end(), {"-o", "manager.components.precreate:HelperForker", "-o",
                                        "manager.components.preactivation:HelperForker0"});
