@@ -118,7 +118,7 @@ std::vector<CheckResult> check_running_programs(const Machine& machine, const Re
         }
     }
     if (results.empty())
-        results.push_back(ok("open TCP ports", "none of a host, manager or monitor of this user"));
+        results.push_back(ok("open TCP ports", "none: no host, manager or monitor of this user has one"));
     return results;
 }
 

@@ -120,7 +120,7 @@ void Application::load(const ApplicationProfile& profile) {
             if (options_.strict || profile.subcomponents.size() == 1) throw;
             if (first_failure.empty()) first_failure = error.what();
             left_out_.push_back(entry.name);
-            log::error("{}; component {} is left out, the other components continue", error.what(),
+            log::error("{}; component {} is left out, and the other components continue", error.what(),
                        entry.name);
             process::publish_notice(process::NoticeKind::component,
                                     "component " + entry.name + " is left out: " + error.what());
@@ -217,7 +217,7 @@ void Application::start_late() {
     for (const ComponentHost* component : start_order_)
         if (component->has_not_started() && may_start_late(*component)) names.push_back(component->name());
     if (names.empty()) return;
-    log::info("{} did not start, which is tried again: a service of another node may not be there yet",
+    log::info("{} did not start and will be tried again: a service of another node may not be available yet",
               fmt::join(names, ", "));
     late_start_ = std::make_shared<LateStart>(directory_, std::move(names));
 }

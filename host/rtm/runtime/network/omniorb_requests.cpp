@@ -109,7 +109,7 @@ class MessageHeader {
         return std::uint64_t{body} + sizeof bytes_;
     }
     const char* fault() const {
-        if (!has_magic()) return "it sent something else than GIOP";
+        if (!has_magic()) return "it sent something other than GIOP";
         if (size() > std::numeric_limits<CORBA::ULong>::max()) return "it announced a message of 4 GB";
         if (has_more_fragments() && size() % 8 != 0 && size() > omni::giopStream::bufferSize)
             return "it sent a fragment whose size is not a multiple of 8";

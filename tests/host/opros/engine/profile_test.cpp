@@ -215,7 +215,7 @@ TEST_CASE("components start last listed first, but never before those they depen
     profile.dependencies = {{{}, "C", "A"}};
     CHECK(start_order(profile) == std::vector<std::string>{"B", "A", "C"});
     profile.dependencies.push_back({{}, "A", "C"});
-    CHECK_THAT(error_of([&] { start_order(profile); }), Catch::Contains("in a circle"));
+    CHECK_THAT(error_of([&] { start_order(profile); }), Catch::Contains("circular dependency"));
 }
 
 TEST_CASE("a component profile is found in every layout in use") {
