@@ -55,7 +55,7 @@ CallQueueHandle Segment::add_call_queue(const std::string& name, const CallQueue
     bool& has_loans = has_loans_[index_of(options.callers)];
     if (needs_loans && has_loans)
         throw Error(path() + ": call queue '" + name + "': another queue of these callers has long calls; " +
-                    "max_bytes up to 64 KiB expected");
+                    "expected max_bytes up to 64 KiB");
     const auto memory = directory_.add(name, layout::ObjectKind::call_queue, bytes.total, bytes.idle);
     has_loans = has_loans || needs_loans;
     return create_call_queue(mapping_, memory, options);

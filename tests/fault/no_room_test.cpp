@@ -115,7 +115,7 @@ TEST_CASE("a long call in a full /dev/shm fails with the reason, and short ones 
         const std::string long_text(2'000'000, 'a');
         if (const Reply reply = client.call(bytes_of(long_text), 1s);
             reply.status != CallStatus::overload ||
-            reply.text() != "arguments of 2000000 bytes find no memory in /dev/shm")
+            reply.text() != "arguments of 2000000 bytes do not fit into the free memory of /dev/shm")
             return 1;
         std::thread worker([&] {
             server.take(10s)->reply(CallStatus::ok, long_text);
@@ -125,7 +125,7 @@ TEST_CASE("a long call in a full /dev/shm fails with the reason, and short ones 
         const bool goes_on = client.call(bytes_of("short"), 10s).text() == "short";
         worker.join();
         return goes_on && reply.status == CallStatus::exception &&
-                       reply.text() == "the results find no memory in /dev/shm"
+                       reply.text() == "the results do not fit into the free memory of /dev/shm"
                    ? 0
                    : 2;
     });

@@ -129,7 +129,7 @@ TEST_CASE("idle hosts are not woken, and notice a call, a message, a death and a
     hosts.kill("rtm");
     REQUIRE(hosts.says("opros", "is down: the peer process has gone"));
     hosts.ask("beta");
-    CHECK(hosts.says("opros", "not ready: the peer is not there for beta\n"));
+    CHECK(hosts.says("opros", "not ready: the peer is not connected for beta\n"));
     const std::size_t killed = hosts.output("rtm").size();
     hosts.start_rtm();
     REQUIRE(hosts.says("rtm", "ready", killed));

@@ -280,7 +280,7 @@ TEST_CASE("tandem run does not wait for a host whose peer could not start") {
     CHECK(run.exit_code() == 1);
     INFO(run.output());
     CHECK_THAT(run.output(),
-               Contains("had not come when this host was asked to stop") && !Contains("killed"));
+               Contains("had not joined when this host was asked to stop") && !Contains("killed"));
     CHECK_FALSE(run.left_in_shared_memory());
 }
 

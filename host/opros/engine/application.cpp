@@ -207,7 +207,7 @@ void Application::start() {
     start_late();
 }
 
-/// Its onStart may have called a service of another node that is not there yet.
+/// Its onStart may have called a service of another node that is not available yet.
 bool Application::may_start_late(const ComponentHost& component) const {
     return !component.has_failed() && users_of_nodes_.count(component.name()) != 0;
 }

@@ -67,7 +67,7 @@ void OprosRtc::hide_ports_but(const std::vector<link::Port>& ports) {
         if (!each.shown || std::any_of(ports.begin(), ports.end(), is_it)) continue;
         removePort(*each.port); // ends its connections
         each.shown = false;
-        log::warn("{}: port '{}' of the OPRoS component, {} '{}', was removed and is shown no longer",
+        log::warn("{}: port '{}' of the OPRoS component, {} '{}', was removed and is no longer shown",
                   getInstanceName(), each.source.name, each.source.type, each.source.signature);
     }
 }

@@ -67,10 +67,9 @@ double parse_factor(std::string_view item, std::string_view text) {
     }
     const auto arrow = text.find("->");
     if (arrow == std::string_view::npos)
-        fail(
-            item,
-            "expected is a unit as in 'deg->rad', a factor as in '* 0.001', 'default VALUE', 'from FIELD' or "
-            "'count FIELD'");
+        fail(item,
+             "expected a unit as in 'deg->rad', a factor as in '* 0.001', 'default VALUE', 'from FIELD' or "
+             "'count FIELD'");
     const Unit& from = find_unit(item, trimmed(text.substr(0, arrow)));
     const Unit& to = find_unit(item, trimmed(text.substr(arrow + 2)));
     if (from.dimension != to.dimension)

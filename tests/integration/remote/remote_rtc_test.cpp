@@ -161,7 +161,8 @@ TEST_CASE("a foreign process that is killed and returns is noticed, connected an
     for (int round = 0; round < 2; ++round) {
         hosts.forget();
         hosts.kill("other");
-        CHECK(hosts.says_now("rtm", "EchoRtc0 has gone with its process; it is looked for until it is back"));
+        CHECK(hosts.says_now("rtm",
+                             "EchoRtc0 has gone with its process; the search continues until it is back"));
         CHECK(hosts.says_now("opros", "port Adaptor.reply was removed: 1 of its connections end"));
         hosts.forget();
         hosts.start_foreign();
@@ -291,7 +292,7 @@ TEST_CASE("a port of an unknown type is left out, and crosses when a library pro
         CHECK(hosts.says("rtm",
                          "port 'raised' of AlarmRtc0: type IDL:TestAlarm/TimedAlarm:1.0 cannot cross the "
                          "link: its IDL is not known to the RTM host; build the RTC's IDL with it, or load "
-                         "a library that has it; this port is left out, the others work"));
+                         "a library that has it; this port is left out, and the others work"));
     CHECK(hosts.stop("opros") == 0);
     CHECK(hosts.becomes("AlarmRtc0", "INACTIVE"));
     CHECK(hosts.stop("rtm") == 0);

@@ -276,7 +276,9 @@ int images_in_small_shm() {
     if (!send_image(writer, 3, pixels) || receive_image(reader) != 3) return 1;
     for (int i = 0; i < 3; ++i) // the reader holds the first one until its next read
         if (send_image(writer, 3, pixels)) return 2;
-    if (log.lines_with("port 'reference': a message of 8388512 bytes finds no memory in /dev/shm") != 2)
+    if (log.lines_with(
+            "port 'reference': a message of 8388512 bytes does not fit into the free memory of /dev/shm") !=
+        2)
         return 3;
     if (!send(writer, 4.5) || receive(reader) != 4.5) return 4;
     if (!send_image(writer, 3, pixels) || receive_image(reader) != 3) return 5;

@@ -138,7 +138,7 @@ TEST_CASE("the host accepts all its options") {
     CHECK(host.exit_code() == 0);
 }
 
-TEST_CASE("bad input is one line on standard error and exit code 1") {
+TEST_CASE("bad input is reported in one line on standard error, with exit code 1") {
     const Folder folder;
     Process host({OPROS_HOST, one_component(folder, "nothing.dll")});
     CHECK(host.exit_code() == 1);
