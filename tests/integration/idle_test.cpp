@@ -101,7 +101,7 @@ long sum_of(const std::map<std::string, long>& switches) {
 /// 3 s, with TANDEM_STRESS=20 and more 60 s.
 std::chrono::seconds observed_time() { return std::chrono::seconds(tandem::test::stress(3, 60)); }
 
-// Nothing of ours wakes up. The system may cause some wake-ups: a signal, a reclaimed page, a debugger. The slowest timer that
+// No thread of Tandem wakes up. The system may cause some wake-ups: a signal, a reclaimed page, a debugger. The slowest timer that
 // would be a fault is one of a second.
 constexpr long max_switches = 2;
 

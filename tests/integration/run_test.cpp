@@ -119,7 +119,7 @@ class NotifySocket {
                       sizeof address) == 1) {
         }
     }
-    /// Returns whether the message arrives, also after others.
+    /// Returns whether the message arrives, even after others.
     bool tells(const std::string& wanted) {
         for (std::string message; !(message = next()).empty();)
             if (message == wanted) return true;

@@ -309,7 +309,7 @@ std::string count_text(std::size_t count, const char* what) {
     return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
-// Ends the text with a summary, also if there are no errors.
+// Ends the text with a summary, even if there are no errors.
 void print_report(const ApplicationReport& report, bool as_json) {
     if (as_json) {
         print_json({{"application", report.name},

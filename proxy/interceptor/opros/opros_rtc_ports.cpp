@@ -87,7 +87,7 @@ bool OprosRtc::add_port(const link::Port& port) {
     return true;
 }
 
-// The operations are those of the IDL, where it is known: the component's methods say nothing of out arguments and
+// The operations are those of the IDL, where it is known: the component's methods say nothing about out arguments and
 // exceptions.
 void OprosRtc::add_required_port(const link::Port& port, const std::string& name) {
     link::Port required = port;

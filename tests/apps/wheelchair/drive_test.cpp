@@ -151,7 +151,7 @@ TEST_CASE("values beyond the range of an axis, and events of other kinds, are bo
     CHECK_FALSE(position.emergency_stop);
 }
 
-TEST_CASE("the emergency-stop button is reported once per press, also for a short press") {
+TEST_CASE("the emergency-stop button is reported once per press, even for a short press") {
     PipeGamepad pad;
     pad.send(EV_KEY, BTN_SOUTH, 1);
     CHECK(pad.gamepad.update());

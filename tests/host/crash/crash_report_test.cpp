@@ -61,7 +61,7 @@ CommandResult run_opros(const std::string& fault) {
         {TANDEM_OPROS_HOST, "--plugin-path", TANDEM_TEST_PLUGINS, application});
 }
 
-/// The block: from its first line to the end, nothing of the host comes after it.
+/// The block: from its first line to the end, the host writes nothing after it.
 std::string block(const CommandResult& result, const std::string& host) {
     const auto begin = result.errors.find(host + ": component ");
     return begin == std::string::npos ? "no block in:\n" + result.errors : result.errors.substr(begin);

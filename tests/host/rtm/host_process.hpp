@@ -124,7 +124,7 @@ class HostProcess {
         }
         return false;
     }
-    /// CPU time so far of all threads, also of those that have ended, in ticks of sysconf(_SC_CLK_TCK): 10 ms.
+    /// CPU time so far of all threads, including those that have ended, in ticks of sysconf(_SC_CLK_TCK): 10 ms.
     long cpu_ticks() const {
         std::ifstream stat("/proc/" + std::to_string(pid_) + "/stat");
         std::string line;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// RTCs behind a link, in a process that knows nothing of the link.
+// RTCs behind a link, in a process that knows nothing about the link.
 #include "tests/apps/tandem/program.hpp"
 #include "tests/integration/two_hosts.hpp"
 

@@ -180,7 +180,7 @@ link::ChannelWriter& waiting_writer(Scene& scene, std::chrono::milliseconds wait
 
 } // namespace
 
-TEST_CASE("of several input ports, the slowest one loses nothing of a sender that waits for room") {
+TEST_CASE("of several input ports, the slowest one loses no message of a sender that waits for room") {
     Scene scene("queues-wait");
     auto& reference = scene.port<OutputDataPortInterface>("reference");
     Input inputs[] = {Input(OPROS_FIFO, 4), Input(OPROS_FIFO, 200), Input(OPROS_UFIFO, 4)};

@@ -86,7 +86,7 @@ TEST_CASE("two chains of 16 nested calls at once return") {
     }
 }
 
-TEST_CASE("a chain of nested calls may enter each direction as often as calls may be under way") {
+TEST_CASE("a chain of nested calls may cross in each direction as often as there may be calls under way") {
     TwoSides sides("chain");
     sides.a->on_call = bounce(*sides.a);
     sides.b->on_call = bounce(*sides.b);

@@ -74,7 +74,7 @@ TEST_CASE("adding and removing ports while the link is up loses no message of th
     CHECK(b->downs == 0);
 }
 
-TEST_CASE("a peer that comes later gets ports that were added before, also in the next session") {
+TEST_CASE("a peer that comes later gets ports that were added before, including in the next session") {
     const auto name = unique_name("before");
     auto b = interceptor(name);
     b->link.open();
@@ -131,7 +131,7 @@ TEST_CASE("a port that gets another type gets other channels, and nothing passes
     CHECK(receive(b->link.reader(turned)) == 5);
 }
 
-TEST_CASE("a peer that returns gets the port's current type, and nothing of the last session") {
+TEST_CASE("a peer that returns gets the port's current type, and no message of the last session") {
     const auto name = unique_name("again");
     auto a = adaptor(name);
     a->link.open();

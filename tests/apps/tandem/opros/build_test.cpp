@@ -330,7 +330,7 @@ TEST_CASE("the old headers of OpenCV are found if OpenCV 4 is installed; otherwi
     fs::current_path(here);
     INFO(info.errors);
     CHECK(info.exit_code == 0);
-    // With the header of OpenCV 2 and 3 that had the C API as well, also before cv.h.
+    // With the header of OpenCV 2 and 3 that had the C API as well, even before cv.h.
     folder.write("Eye/Eye.cpp", "#include <Component.h>\n#include <opencv2/opencv.hpp>\n"
                                 "class Eye : public Component {\n  IplImage* image;\n};\n"
                                 "#include <opencv/cv.h>\nint gray() { return CV_GRAY2RGB; }\n"

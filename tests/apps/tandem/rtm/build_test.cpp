@@ -115,8 +115,8 @@ TEST_CASE("an RT-Component is built from a sub-folder with the IDL files above i
     CHECK(built.output == dir + "/Hello.so\n");
 }
 
-TEST_CASE(
-    "an RT-Component is built with IDL files in sub-folders, also ones that only other IDL files include") {
+TEST_CASE("an RT-Component is built with IDL files in sub-folders, including those that only other IDL files "
+          "include") {
     const Folder folder;
     const std::string words =
         "#pragma prefix \"example.org\"\nmodule pack { typedef sequence<string> Words; };\n";

@@ -251,7 +251,7 @@ TEST_CASE("A long sequence of a direct connection is copied once, into memory th
         CHECK(picture.tm.nsec == number);
         places.insert(ports.received.data.get_buffer());
     }
-    CHECK(places.size() == 2); // the memory of the variable and of the buffer in turn
+    CHECK(places.size() == 2); // the memory of the variable and of the buffer, alternately
 
     for (CORBA::Octet number = 21; number <= 24; ++number) write_picture(ports, number);
     for (CORBA::Octet number = 21; number <= 24; ++number) CHECK(read_picture(ports).data[0] == number);
@@ -271,7 +271,7 @@ TEST_CASE("While only a listener uses long values, a direct connection keeps the
     ports.in.addConnectorDataListener(RTC::ON_RECEIVED, received);
     ports.sent.data.length(picture_bytes);
     for (CORBA::Octet number = 1; number <= 20; ++number) write_picture(ports, number);
-    CHECK(places.size() == 2); // the memory of the listener and of the buffer in turn
+    CHECK(places.size() == 2); // the memory of the listener and of the buffer, alternately
     CHECK(read_picture(ports).data[0] == 20);
     CHECK_FALSE(ports.in.isNew());
     for (CORBA::Octet number = 21; number <= 24; ++number) write_picture(ports, number);
