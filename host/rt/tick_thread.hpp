@@ -11,8 +11,8 @@
 
 namespace tandem::rt {
 
-/// A thread that runs the cycles of its members, until none is left. A member changes its thread with the mutex of
-/// TickThreads and then that of the thread held.
+/// A thread that runs the cycles of its members, until none is left. To move a member, lock the mutex of
+/// TickThreads and then that of the thread.
 struct TickThread : std::enable_shared_from_this<TickThread> {
     using Lock = std::unique_lock<std::mutex>;
 

@@ -32,7 +32,7 @@ concept CdrPrimitive = std::is_arithmetic_v<T> && !std::is_same_v<T, wchar_t>;
 template <CdrPrimitive T>
 constexpr std::size_t cdr_alignment = std::min<std::size_t>(sizeof(T), 8);
 
-/// Copies like memcpy, also zero bytes. On AMD processors since Zen 3, memcpy of glibc before 2.40 takes 18 times as long
+/// Copies like memcpy, even zero bytes. On AMD processors since Zen 3, memcpy of glibc before 2.40 takes 18 times as long
 /// from 2 KiB to 1 MiB if the destination is 1 to 31 bytes after the source, modulo 4 KiB (glibc bug 30994). Memory for
 /// a multiple of 4 KiB that is allocated directly after other such memory has this distance. In this case the copy is made
 /// here, in blocks.

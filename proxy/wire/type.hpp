@@ -67,8 +67,8 @@ struct Type {
     std::string name{};      ///< of a member; empty if unknown; ignored by comparisons
     /// Of a union's case: the discriminator's values, those above INT64_MAX as negative ones; none: all others.
     std::vector<std::int64_t> labels{};
-    /// Of the value of an any: repository ids of its typedefs from the outside in, and of the type itself. Behind that of
-    /// an enumeration: a space and its enumerators, with commas. Ignored by comparisons.
+    /// Of the value of an any: repository ids of its typedefs from the outside in, and of the type itself. After that of
+    /// an enumeration: a space and its enumerators, separated by commas. Ignored by comparisons.
     std::vector<std::string> ids{};
 
     bool operator==(const Type& other) const {

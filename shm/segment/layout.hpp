@@ -24,7 +24,7 @@
 // Memory is reserved and touched at creation. In a sparse segment, an object's header when it is added, the records of a
 // ring with the first message, a chunk and a call's overflow buffer when they are first used.
 //
-// Bytes 0 to 2 of the file serve as locks (liveness.hpp); their values mean nothing.
+// Bytes 0 to 2 of the file serve as locks (liveness.hpp); their values are meaningless.
 //
 // All code that reads a segment assumes that the peer changes any byte at any time: sizes and offsets are copied
 // once, checked, and then only the copy is used. For the size of the file see truncation_guard.hpp.
@@ -332,7 +332,7 @@ enum class WorkerPolling : std::uint32_t { no, yes, soon };
 
 // The first 1024 calls of each slot, and then every 16th, are timed.
 struct alignas(line_pair) CallTimes {
-    Histogram round_trip; // from the begin of the call to its reply; measured by the caller
+    Histogram round_trip; // from the start of the call to its reply; measured by the caller
     Histogram service;    // from taken to answered; measured by the worker
 };
 

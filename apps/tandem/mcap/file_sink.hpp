@@ -18,7 +18,7 @@ class Sink {
     virtual ~Sink() = default;
     /// Appends the bytes. Throws Error if they cannot be written.
     virtual void write(ByteView bytes) = 0;
-    /// Ensures that a death of the process does not lose the bytes written so far. Throws Error.
+    /// Ensures that the bytes written so far survive the death of the process. Throws Error.
     virtual void flush() = 0;
     /// Ensures that the next `size` bytes find room. Throws Error if it is known that they do not.
     virtual void reserve(std::uint64_t) {}

@@ -14,7 +14,7 @@ class NewFile {
     /// When the file gets its name. Until then it is FOLDER/tandem-PID-N.part.
     enum class Named {
         at_once,      ///< for a recording: if the recorder is killed, the user finds the data
-        when_complete ///< for a file that can be made again: an incomplete one never has the name
+        when_complete ///< for a file that can be recreated: an incomplete one never has the name
     };
     /// Throws Error if the name is taken by a file that is not empty or that another program is writing.
     NewFile(std::filesystem::path path, Named named);

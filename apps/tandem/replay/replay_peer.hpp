@@ -14,8 +14,8 @@
 namespace tandem::command {
 
 /// One side of a link, in place of the recorded host: shares the recorded ports, sends messages on request,
-/// answers calls as recorded, and accepts the other proxy's commands. The peer treats it as any other host,
-/// also when it ends. [one thread, except where noted]
+/// answers calls as recorded, and accepts the other proxy's commands. The peer treats it like any other host,
+/// even when it ends. [one thread, except where noted]
 class ReplayPeer final : private link::LinkHandler {
   public:
     /// `name`: current name of the link. `check` may be null. All references must outlive this object.

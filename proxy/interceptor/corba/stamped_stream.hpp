@@ -25,7 +25,7 @@ class StampedStream : public cdrStream {
   protected:
     StampedStream();
     [[noreturn]] static void throw_marshal();
-    /// Begins a message. Returns its begin and end, or those of its first part.
+    /// Begins a message. Returns its start and end, or those of its first part.
     std::pair<void*, void*> open(std::span<std::byte> body, bool timed, std::byte* front);
 
     void put_octet_array(const _CORBA_Octet*, int, omni::alignment_t) override { throw_marshal(); }

@@ -28,7 +28,7 @@ void watch_termination(RTC::Manager& manager);
 RTC::RTCList find_by_name(RTC::Manager& manager, const std::string& name, std::string& reason,
                           CORBA::ULong timeout_ms);
 
-/// Returns whether the servant, an InPort, has listeners that need each message on arrival, or must be given it then.
+/// Returns whether the InPort must get each message on arrival: it has listeners, or the engine shows none of them.
 bool wants_arrivals(RTC::InPortBase& port);
 
 } // namespace tandem::interceptor::engine

@@ -11,7 +11,7 @@ using tandem::crash::CallbackScope;
 using tandem::crash::find_running_callback;
 
 namespace {
-// Any address names a component.
+// The address of any object can stand for a component.
 std::string running_in(const int& component) {
     const auto found = find_running_callback(&component);
     return found ? found->name : "none";

@@ -315,7 +315,7 @@ TEST_CASE("late ports beyond what a side can have do not keep the link from comi
     for (std::size_t i = 0; i < shm::layout::max_objects; ++i)
         table.ports.push_back(data_port(fmt::format("late{}", i)));
     b.link.set_ports(table);
-    REQUIRE(eventually([&] { return log.lines_with("later ports that are not shared") == 1; }));
+    REQUIRE(eventually([&] { return log.lines_with("further ports that are not shared") == 1; }));
     a.reset();
     REQUIRE(eventually([&] { return b.downs == 1; }));
     a = std::make_unique<ChangingSide>(shm::Side::first, LinkOptions{name}, PortTable{});

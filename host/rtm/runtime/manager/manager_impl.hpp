@@ -109,7 +109,7 @@ struct Manager::Impl {
     void discard_component(RTObject_impl& component, std::shared_ptr<FactoryBase> factory);
     /// Throws ManagerError, with the names of all components, if there is no component of that name.
     RTObject_impl& require_component(Manager& manager, const std::string& name);
-    /// Returns the folders in which modules are searched, in order.
+    /// Returns the folders that are searched for modules, in order.
     std::vector<std::filesystem::path> module_dirs() const;
     struct ModuleFile {
         std::filesystem::path file;
