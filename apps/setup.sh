@@ -18,7 +18,7 @@ describe_distribution() ( # in a subshell: the file sets many variables
 
 # install_missing_packages [GROUP]
 # Installs the packages of a group in dependencies.txt (default: [build]). Exits with one line if a package is missing
-# and neither root nor sudo can install it, and returns 1 if apt-get fails, also where a caller's `||` switches off `set -e`.
+# and neither root nor sudo can install it, and returns 1 if apt-get fails, even where a caller's `||` switches off `set -e`.
 install_missing_packages() {
     local missing=() package group= listed=no
     command -v apt-get >/dev/null ||

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# The installation of a tree of which only a part has been built: what is built is installed, and one line at the end
+# The installation of a partly built tree: what is built is installed, and one line at the end
 # names the rest.
 
 # tandem_install(TARGET... [what install(TARGETS) takes])

@@ -55,7 +55,7 @@ CallQueueHandle Segment::add_call_queue(const std::string& name, const CallQueue
     bool& has_loans = has_loans_[index_of(options.callers)];
     if (needs_loans && has_loans)
         throw Error(path() + ": call queue '" + name + "': another queue of these callers has long calls; " +
-                    "max_bytes up to 64 KiB expected");
+                    "expected max_bytes up to 64 KiB");
     const auto memory = directory_.add(name, layout::ObjectKind::call_queue, bytes.total, bytes.idle);
     has_loans = has_loans || needs_loans;
     return create_call_queue(mapping_, memory, options);
@@ -94,7 +94,7 @@ std::optional<std::span<std::byte>> Segment::find_blob(Side owner, const std::st
 std::optional<std::vector<std::byte>> Segment::copy_blob(Side owner, const std::string& name) const {
     const auto memory = find_blob(owner, name);
     if (!memory) return std::nullopt;
-    // A blob has its memory since it was added, so a longer one is none.
+    // A blob has had memory since it was added, so nothing longer than the memory is a blob.
     if (memory->size() > mapping_->memory_bytes())
         throw Error(path() + ": blob '" + name + "' of side " + name_of(owner) + " claims " +
                     std::to_string(memory->size()) + " bytes, more than the file has; restart that side");

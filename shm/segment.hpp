@@ -55,7 +55,7 @@ class Segment {
     /// [any-thread] Returns whether the peer is absent, alive or dead. Makes up to ten system calls: for a supervisor, not for
     /// the data path.
     PeerState peer_state() const { return mapping_->peer_state(); }
-    /// [any-thread] Mapping::peer_state_by_lock(): one system call, suitable every 5 ms, not for every message.
+    /// [any-thread] Mapping::peer_state_by_lock(): one system call: call it every 5 ms, not for every message.
     PeerState peer_state_by_lock() const { return mapping_->peer_state_by_lock(); }
     std::size_t arena_bytes(Side owner) const { return mapping_->arena(owner).size(); }
     ProcessIdentity peer_process() const; ///< Returns what the peer wrote; empty before it has joined.

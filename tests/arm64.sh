@@ -3,7 +3,7 @@
 # Cross-compiles preset arm64 in a Debian 12 root folder that it makes, and runs tests of it under qemu.
 #   tests/arm64.sh [ninja target ...]    (default: the tests of shared memory, the wire format, links and crashes, and the wheelchair)
 # Without targets, the wheelchair must write the same bytes in lock-step as on x86-64; log and figure are in build/arm64/wheelchair.
-# Times under qemu say nothing of a board. Needs root, debootstrap and 3 GB in /var/tmp/tandem-arm64.
+# Times under qemu say nothing about a board. Needs root, debootstrap and 3 GB in /var/tmp/tandem-arm64.
 set -euo pipefail
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 target=/var/tmp/tandem-arm64

@@ -141,7 +141,7 @@ struct RowRuns {
     std::string failure; ///< of the last run that failed
 };
 
-/// Appends a result to row.runs, also if the run failed.
+/// Appends a result to row.runs, even if the run failed.
 void add_run(Row& row, RowRuns& runs, Outcome outcome) {
     if (!outcome.failure.empty()) {
         runs.failure = outcome.failure;

@@ -183,7 +183,7 @@ void append_exception() {
                   "joined";
         return;
     }
-    (report << "an exception that nobody catches, of type ").type(type->name());
+    (report << "an uncaught exception of type ").type(type->name());
     try {
         throw;
     } catch (const std::exception& error) {

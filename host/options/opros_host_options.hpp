@@ -28,8 +28,8 @@ struct OprosHostOptions {
     }
 };
 
-/// Parses the command line. Returns nothing after --help, --version or an error; it has then printed the
-/// answer. `exit_code` is then the program's exit code.
+/// Parses the command line. After --help, --version or a mistake, prints the text or the error, sets `exit_code`
+/// to the program's exit code, and returns nothing.
 std::optional<OprosHostOptions> parse_opros_host_options(int argc, char** argv, int& exit_code);
 
 } // namespace tandem::options

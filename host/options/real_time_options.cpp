@@ -24,7 +24,7 @@ void add_real_time_options(CLI::App& cli, RealTimeOptions& options) {
         ->check(CLI::IsMember({"spin", "spin-then-futex", "futex", "same-core"}));
     cli.add_flag("--low-latency-idle", options.low_latency_idle, "Keep processors out of deep idle states");
     cli.add_flag("--lock-memory", options.lock_memory, "Lock the process in memory");
-    cli.add_flag("--parent-death", options.parent_death, "End in order when the parent process dies");
+    cli.add_flag("--parent-death", options.parent_death, "End cleanly when the parent process dies");
 }
 
 std::vector<std::string> apply(const RealTimeOptions& options) {

@@ -17,7 +17,7 @@ std::optional<RtmHostOptions> parse_rtm_host_options(int argc, char** argv, int&
     cli.add_option("-f", options.conf_file,
                    "configuration file (default: $RTC_MANAGER_CONFIG, ./rtc.conf, /etc/rtc.conf)");
     cli.add_option("-o", options.settings,
-                   "a setting of rtc.conf, KEY:VALUE; wins over the file (repeatable)")
+                   "a setting of rtc.conf, KEY:VALUE; overrides the file (repeatable)")
         ->allow_extra_args(false);
     cli.add_option("-p", options.port, "TCP port of the CORBA endpoint on the loopback interface");
     cli.add_flag("-d", options.master, "master manager: port 2810, and keep running without components");

@@ -61,7 +61,7 @@ class ElfFile {
         if (pread(fd_.get(), start, 2, 0) == 2 && start[0] == 'M' && start[1] == 'Z')
             fail(Reason::not_a_library,
                  "is for Windows; build the component from its source: tandem opros build");
-        fail(Reason::not_a_library, "is not a shared library (no ELF file)");
+        fail(Reason::not_a_library, "is not a shared library (not an ELF file)");
     }
 
     std::filesystem::path file_;

@@ -9,7 +9,7 @@ namespace tandem::plugin {
 /// Why a library cannot be used, for callers that handle some reasons differently.
 enum class Reason {
     not_found,          ///< no such file in any folder of the search path
-    not_a_library,      ///< no ELF file, or a program or object file
+    not_a_library,      ///< not an ELF file, or a program or object file
     damaged,            ///< an ELF file that is truncated or inconsistent
     wrong_architecture, ///< for a processor other than this program's
     wrong_model,        ///< a library of an unexpected kind

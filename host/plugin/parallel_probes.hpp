@@ -22,7 +22,7 @@ class ParallelProbes {
 
     /// Starts to probe the library in a separate thread, unless the probe has already been started.
     void begin(const std::filesystem::path& library, const std::vector<std::string>& arguments = {});
-    /// Returns or throws the result of run_probe(). Probes the library now if it was not begun. Each result is used
+    /// Returns or throws the result of run_probe(). Probes the library now if begin() was not called for it. Each result is used
     /// once: the next call probes again.
     std::string finish(const std::filesystem::path& library, const std::vector<std::string>& arguments = {});
 

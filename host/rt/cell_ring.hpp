@@ -315,7 +315,7 @@ void BasicCellRing<A>::catch_up() {
     set_taken(reader_.position);
 }
 
-/// Each failed attempt means that the writer has dropped values meanwhile.
+/// Each failed attempt means that the writer has dropped values in the meantime.
 template <class A>
 bool BasicCellRing<A>::take_overtaken() {
     constexpr int max_attempts = 64;
@@ -337,7 +337,7 @@ bool BasicCellRing<A>::peek() {
     return true;
 }
 
-/// Returns false if the peeked value is none of the newest `depth` any more.
+/// Returns false if the peeked value is no longer one of the newest `depth`.
 template <class A>
 bool BasicCellRing<A>::take_peeked() {
     has_peeked_ = false;

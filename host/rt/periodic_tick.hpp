@@ -122,7 +122,7 @@ std::int64_t next_on_grid(std::int64_t now, std::int64_t period, std::int64_t ph
 inline constexpr std::int64_t rehearsal_limit_ns = 50'000;
 
 /// Prefetches the first 2 KiB of an object with virtual functions, for writing, and its table of virtual
-/// functions. For TickOptions::rehearse; reads nothing of the object but its table pointer.
+/// functions. For TickOptions::rehearse; reads only the table pointer of the object.
 template <class Object>
 void prefetch(const Object& object) {
     constexpr std::size_t line = 64, bytes = 2048;

@@ -28,7 +28,7 @@ bool are_equal(const SharedTickOptions& a, const SharedTickOptions& b);
 
 /// The cycles of one component or context, in a thread that runs the cycles of others with equal options one after the
 /// other. There are at most as many such threads for equal options as processors. A cycle that waits for longer than its
-/// share gets a separate thread at once, one that computes for longer than its share does after three times in a row, and
+/// share gets a separate thread at once, one that computes for longer than its share does after three such cycles, and
 /// one that hangs keeps the thread, while the others get a new one.
 class SharedTick : public std::enable_shared_from_this<SharedTick> {
   public:

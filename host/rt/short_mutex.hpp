@@ -14,9 +14,9 @@ namespace tandem::rt {
 ///
 /// A thread that takes the mutex repeatedly, without another thread in between, becomes its owner. From then on the
 /// owner needs no instruction that locks a cache line: it writes `inside_`, then reads `asked_`. Another thread writes
-/// `asked_`, makes all threads of the process pass a memory barrier (membarrier(2)), and waits until `inside_` is 0. So
+/// `asked_`, issues a process-wide memory barrier (membarrier(2)), and waits until `inside_` is 0. So
 /// either the owner sees `asked_` and locks the usual way, or the other thread sees `inside_` and waits. If other
-/// threads take the mutex often, 64 times within a second, it has no owner any more. The usual way is the second mutex
+/// threads take the mutex often, 64 times within a second, it no longer has an owner. The usual way is the second mutex
 /// of U. Drepper, "Futexes Are Tricky".
 ///
 /// An owner locks and unlocks in 0.8 ns; the usual way takes 82 ns, std::mutex 84 ns, and a mutex with priority

@@ -100,7 +100,7 @@ std::optional<std::string> terminate_with_parent() {
         return refused("the parent's death will go unnoticed: " + error_text(errno));
     // The parent may have died before prctl(). Process 1 has then adopted this process.
     if (getppid() != 1) return std::nullopt;
-    return std::string("the parent process is gone already");
+    return std::string("the parent process has already ended");
 }
 
 } // namespace tandem::rt

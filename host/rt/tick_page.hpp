@@ -27,7 +27,7 @@ struct alignas(64) TickSlot {
     /// The time on CLOCK_MONOTONIC at which the next tick is due. If it is in the distant past, the thread hangs in a callback
     /// or gets no processor. 0: no tick is due, as before the first tick, while no component is active, and in lock-step.
     std::int64_t due_ns;
-    // Until here, in one cache line, what each tick writes that no other process can see.
+    // A tick that no other process can see writes only the members above, which are in one cache line.
     char name[80]; ///< the owner of the ticks; NUL-terminated
     std::uint64_t lateness[octaves];
     crash::CallbackText callback;     ///< the callback that the thread is in

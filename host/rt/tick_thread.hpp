@@ -11,8 +11,8 @@
 
 namespace tandem::rt {
 
-/// A thread that runs the cycles of its members, until none is left. A member changes its thread with the mutex of
-/// TickThreads and then that of the thread held.
+/// A thread that runs the cycles of its members, until none is left. To move a member, lock the mutex of
+/// TickThreads and then that of the thread.
 struct TickThread : std::enable_shared_from_this<TickThread> {
     using Lock = std::unique_lock<std::mutex>;
 
@@ -24,7 +24,7 @@ struct TickThread : std::enable_shared_from_this<TickThread> {
     bool delays_members() const;
     void add(const std::shared_ptr<SharedTick>& tick);
     void remove(const SharedTick& tick);
-    /// Returns true at the second look that finds one cycle running for longer than any may delay the others. `now`: in ns.
+    /// Returns true if two calls in a row find the same cycle running, and it delays others for too long. `now`: in ns.
     bool hangs(std::int64_t now);
 
     const SharedTickOptions options;

@@ -14,7 +14,7 @@ extern template class BasicCellRing<shm::RealAtomics>;
 template <class Value>
 class ValueRing : public CellRing {
   public:
-    /// depth: 1 to max_depth. A full ring holds this many values; each end owns one more, and so does the cell without one.
+    /// depth: 1 to max_depth. A full ring holds this many values. Each end owns one more, and the spare cell has one.
     explicit ValueRing(std::size_t depth) : CellRing(depth), values_(depth + 3) {}
 
     Value& at(std::uint32_t index) { return values_[index].value; }

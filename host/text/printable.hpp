@@ -10,7 +10,7 @@ namespace tandem::text {
 /// Returns the text with '?' for each control character, including newlines, and for each byte that is not UTF-8.
 std::string printable_line(std::string_view text);
 
-/// Does the same, but keeps newlines and tabs.
+/// Like printable_line(), but keeps newlines and tabs.
 std::string printable_text(std::string_view text);
 
 } // namespace tandem::text

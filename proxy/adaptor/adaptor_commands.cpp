@@ -43,7 +43,7 @@ Reply AdaptorComp::publish_bindings() {
             control::bind, control::encode(control::ServiceBinding{port->port(), port->operations()}));
         if (reply.status == CallStatus::ok) continue;
         if (settings_.strict || reply.status != CallStatus::exception) return reply;
-        log::error("{}: {}; this service is left out, the others work", getId(),
+        log::error("{}: {}; this service is left out, and the others work", getId(),
                    describe_failure(reply, timeout_of(control::bind)));
     }
     return {};

@@ -190,9 +190,8 @@ ReturnType AdaptorComp::stop() {
     const bool withdrawn = run_state_.withdraw_restart();
     const ReturnType result = Component::stop();
     if (result == OPROS_SUCCESS || !withdrawn) return result;
-    log::info(
-        "{0}: link '{1}': {0} does not start by itself any more; use tandem opros recover {0} and start {0}",
-        getId(), settings_.link);
+    log::info("{0}: link '{1}': {0} no longer starts by itself; use tandem opros recover {0} and start {0}",
+              getId(), settings_.link);
     return onStop();
 }
 
@@ -257,7 +256,7 @@ std::string AdaptorComp::check_peer_ports(link::PortTable& peer) {
                 error = fmt::format("link '{}': port '{}' of the peer that came back {}", settings_.link,
                                     port.name, now ? "has another type than before" : "is gone");
     if (settings_.strict && !error.empty()) return error;
-    if (!error.empty()) log::error("{}; it is left out, the others work", error);
+    if (!error.empty()) log::error("{}; it is left out, and the others work", error);
     peer_ports_ = peer;
     return "";
 }

@@ -103,7 +103,7 @@ class AdaptorComp final : public Component, public engine::DirectoryUser, privat
     link::PortTable own_ports_, peer_ports_;
     bool mirrors_created_ = false;
     RunState run_state_;
-    std::atomic<std::thread::id> restarting_thread_{}; ///< that makes its own transitions, if any
+    std::atomic<std::thread::id> restarting_thread_{}; ///< the thread that runs a restart, if any
     std::unique_ptr<link::TaskQueue> restarts_; ///< uses the link; its thread starts with the first task
 
     /// Held while a command about the RTC's life cycle is sent: the activation for a new connection must not follow the

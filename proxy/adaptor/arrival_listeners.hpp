@@ -23,7 +23,7 @@ class ArrivalListeners final : private engine::ArrivalWaiter {
     void wake(const engine::ArrivalListener& listener) override { link_.wake_consumer(&listener); }
 
     link::Link& link_;
-    std::mutex mutex_; ///< guards the listeners, and keeps those of the link the same
+    std::mutex mutex_; ///< guards the listeners, and keeps the link's consistent with them
     std::map<const link::ChannelReader*, engine::ArrivalListener*> listeners_;
 };
 

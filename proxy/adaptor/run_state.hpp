@@ -9,7 +9,7 @@ namespace tandem::adaptor {
 /// reported during a stop cannot undo the stop. [any-thread]
 class RunState {
   public:
-    /// Begins a start. Returns false if it is a restart that the user has withdrawn meanwhile.
+    /// Begins a start. Returns false if it is a restart that the user has since withdrawn.
     bool begin_start(bool is_restart) {
         const std::lock_guard lock(mutex_);
         if (is_restart && state_ != State::restart_wanted) return false;

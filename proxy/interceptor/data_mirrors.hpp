@@ -28,8 +28,8 @@ class DataMirrors {
 
     /// Makes a mirror of the port, as a port of the owner. Leaves out a port whose type cannot cross; see PortConnector.
     void create(const RtcPort& port);
-    /// Gives the owner the mirror of exactly this port that there was before, without messages that have come since.
-    /// Returns false if there was none.
+    /// Gives the owner the earlier mirror of exactly this port again, without messages that have come since. Returns
+    /// false if there was none.
     bool restore(const link::Port& port);
     /// Takes the port's mirror from the owner, if there is one.
     void hide(const link::Port& port);

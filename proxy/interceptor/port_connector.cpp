@@ -33,7 +33,7 @@ std::string PortConnector::connect(RTC::PortBase& mirror, const RtcPort& port, c
 void PortConnector::leave_out(const std::string& reason) {
     if (strict_) throw std::runtime_error(reason);
     const std::string line =
-        fmt::format("{}: {}; this port is left out, the others work", owner_.getInstanceName(), reason);
+        fmt::format("{}: {}; this port is left out, and the others work", owner_.getInstanceName(), reason);
     log::error("{}", line);
     process::publish_notice(process::NoticeKind::setting, line);
 }

@@ -29,8 +29,8 @@ bool has_arrival_listener(RTC::PortService_ptr port);
 /// Leaves out ports named `linkState` or `missedDeadline`, because both proxies have such ports. The entry of a data port
 /// whose type cannot cross has link::no_signature. Throws CORBA::Exception if the RTC does not answer.
 std::vector<RtcPort> enumerate_ports(RTC::RTObject_impl& rtc);
-/// Lists the ports of an RTC of another process, named `component` here. Unless it `is_only` one of the link, its port
-/// names begin with its name, because other RTCs that are not known yet may have ports of the same names.
+/// Lists the ports of an RTC of another process, named `component` here. Unless `is_only`
+/// (the only RTC of the link), its port names begin with its name, because RTCs that are not known yet may have such ports.
 std::vector<RtcPort> enumerate_remote_ports(const RTC::PortServiceList& services,
                                             const std::string& component, bool is_only);
 

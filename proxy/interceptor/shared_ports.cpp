@@ -238,7 +238,7 @@ void SharedPorts::share_new(std::vector<RtcPort> ports) {
     listened_changed_(); // of listeners that the RTC has added with the port
 }
 
-/// Puts the name of the RTC in front of the port's name if a port of another RTC has this name.
+/// Puts the name of the RTC before the port's name if a port of another RTC has this name.
 void SharedPorts::add_rtc_name_if_taken(RtcPort& port) const {
     const auto has_name = [&](const RtcPort& each) {
         return each.entry.name == port.entry.name ||

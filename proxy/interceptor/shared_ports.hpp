@@ -56,7 +56,7 @@ class SharedPorts {
     const RtcActivation& activation_;
     const std::function<void()> listened_changed_;
     // Set by share(), then changed in the task thread.
-    std::vector<RtcPort> ports_; ///< also those that the RTCs have removed
+    std::vector<RtcPort> ports_; ///< including those that the RTCs have removed
     link::PortTable table_;      ///< the table for the peer: those of ports_ that exist now
     std::vector<std::unique_ptr<RtcPortWatcher>> watchers_;
 };

@@ -121,11 +121,11 @@ void Link::wait_until_up(std::chrono::milliseconds timeout, const std::string& p
         if (result.up) return;
         if (!result.refusal.empty()) throw LinkError(result.refusal);
         if (gives_up())
-            throw LinkError(fmt::format("link '{}': {} had not come when this host was asked to stop",
+            throw LinkError(fmt::format("link '{}': {} had not joined when this host was asked to stop",
                                         options_.name, peer_name));
     } while (!state_.is_closing() && std::chrono::steady_clock::now() < deadline);
     const auto other_user = hint_at_other_user(options_);
-    throw LinkError(fmt::format("link '{}': {} did not come within {} s; {}", options_.name, peer_name,
+    throw LinkError(fmt::format("link '{}': {} did not join within {} s; {}", options_.name, peer_name,
                                 static_cast<double>(timeout.count()) / 1000.0,
                                 other_user.empty()
                                     ? fmt::format("start it with link={}, or allow more time", options_.name)
@@ -144,7 +144,7 @@ ReplyView Link::call(std::span<const std::byte> encoded_request, std::chrono::mi
                      wire::MessageBuffer& memory) {
     const auto session = state_.connected_session(); // keeps the segment mapped during the call
     if (!session)
-        return copy_to(memory, Reply::failure(CallStatus::not_ready, "not ready: the peer is not there"));
+        return copy_to(memory, Reply::failure(CallStatus::not_ready, "not ready: the peer is not connected"));
     BufferMemory results(memory);
     const auto reply = session->outgoing_calls()->call_into(encoded_request, timeout, results);
     if (reply.status == CallStatus::timeout) [[unlikely]]
@@ -160,7 +160,7 @@ Reply Link::request_rings(const std::vector<std::string>& ports, std::chrono::mi
 }
 
 Reply Link::send(const Request& request, std::chrono::milliseconds timeout) {
-    if (!state_.is_up()) return Reply::failure(CallStatus::not_ready, "not ready: the peer is not there");
+    if (!state_.is_up()) return Reply::failure(CallStatus::not_ready, "not ready: the peer is not connected");
     try {
         sends_.start();
     } catch (const process::NotStarted& error) {

@@ -249,7 +249,7 @@ void PeerSupervisor::report_left_out(const std::string& what) {
     if (what.empty()) return;
     const std::string line = fmt::format("link '{}': {}", options_.name, what);
     if (!std::exchange(left_out_reported_, true))
-        log::error("{}; later ports that are not shared get no line", line);
+        log::error("{}; further ports that are not shared are not logged", line);
     left_out_.emplace(process::NoticeKind::setting, line);
 }
 

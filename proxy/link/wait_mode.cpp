@@ -23,7 +23,7 @@ shm::WaitOptions wait_options_from_environment() {
         if (name == requested) return options;
     }
     throw LinkError(std::string("TANDEM_WAIT_MODE is '") + requested +
-                    "': spin, spin-then-futex, futex or same-core expected");
+                    "': expected spin, spin-then-futex, futex or same-core");
 }
 
 } // namespace tandem::link

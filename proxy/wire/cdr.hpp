@@ -32,9 +32,9 @@ concept CdrPrimitive = std::is_arithmetic_v<T> && !std::is_same_v<T, wchar_t>;
 template <CdrPrimitive T>
 constexpr std::size_t cdr_alignment = std::min<std::size_t>(sizeof(T), 8);
 
-/// Copies like memcpy, also zero bytes. On AMD processors since Zen 3, memcpy of glibc before 2.40 takes 18 times as long
-/// from 2 KiB to 1 MiB if the destination is 1 to 31 bytes behind the source, modulo 4 KiB (glibc bug 30994). Memory for
-/// a multiple of 4 KiB that is allocated directly behind other such memory has this distance. In this case the copy is made
+/// Copies like memcpy, even zero bytes. On AMD processors since Zen 3, memcpy of glibc before 2.40 takes 18 times as long
+/// from 2 KiB to 1 MiB if the destination is 1 to 31 bytes after the source, modulo 4 KiB (glibc bug 30994). Memory for
+/// a multiple of 4 KiB that is allocated directly after other such memory has this distance. In this case the copy is made
 /// here, in blocks.
 inline void copy_long(void* to, const void* from, std::size_t bytes) {
     const std::size_t behind =
@@ -270,12 +270,12 @@ class CdrReader {
         ok_ = false;
         return 0;
     }
-    /// Reads the next `bytes` bytes, from a multiple of `alignment` on; empty if the message ends before.
+    /// Reads `bytes` bytes from the next multiple of `alignment`; empty if the message is too short.
     std::span<const std::byte> get_block(std::size_t bytes, std::size_t alignment) {
         if (!align(alignment) || !skip(bytes)) return {};
         return in_.subspan(position_ - bytes, bytes);
     }
-    /// Reads the elements of a sequence, `element_bytes` each; empty if there are none or the message ends before.
+    /// Reads the elements of a sequence, `element_bytes` each; empty if there are none or the message is too short.
     std::span<const std::byte> get_sequence(std::size_t element_bytes, std::size_t alignment) {
         const std::size_t head = (position_ + 3) & ~std::size_t{3},
                           behind_head = head + sizeof(std::uint32_t);

@@ -44,8 +44,8 @@ struct Operation {
     const ExceptionType* find_exception(std::string_view id) const;
 };
 
-/// Parses an operation's signature; docs/wire_format.md has the grammar. Throws SignatureError, also beyond 256 arguments
-/// or 64 exceptions.
+/// Parses an operation's signature; docs/wire_format.md has the grammar. Throws SignatureError if it is malformed or has more
+/// than 256 arguments or 64 exceptions.
 Operation parse_operation(std::string_view signature);
 
 /// Returns why an operation cannot cross: its first argument, result or exception that cannot, and the reason; empty if all

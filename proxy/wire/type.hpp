@@ -67,8 +67,8 @@ struct Type {
     std::string name{};      ///< of a member; empty if unknown; ignored by comparisons
     /// Of a union's case: the discriminator's values, those above INT64_MAX as negative ones; none: all others.
     std::vector<std::int64_t> labels{};
-    /// Of the value of an any: repository ids of its typedefs from the outside in, and of the type itself. Behind that of
-    /// an enumeration: a space and its enumerators, with commas. Ignored by comparisons.
+    /// Of the value of an any: repository ids of its typedefs from the outside in, and of the type itself. After that of
+    /// an enumeration: a space and its enumerators, separated by commas. Ignored by comparisons.
     std::vector<std::string> ids{};
 
     bool operator==(const Type& other) const {
@@ -78,11 +78,11 @@ struct Type {
 };
 
 /// Parses a message signature into a structure of its members. Drops parentheses around the whole signature, because a
-/// structure of one structure is encoded the same. Throws SignatureError, also beyond 32 levels of nesting, 4096 members or
-/// an array of 2^24: signatures come from other processes.
+/// structure of one structure is encoded the same. Throws SignatureError, including for more than 32 levels of nesting, 4096
+/// members or 2^24 elements of an array, because signatures come from other processes.
 Type parse_signature(std::string_view signature);
 
-/// Parses the one type, or the member with its name, whose signature begins at `position`, and moves `position` behind it.
+/// Parses the one type, or the member with its name, whose signature begins at `position`, and moves `position` past it.
 /// Throws SignatureError.
 Type parse_next_type(std::string_view text, std::size_t& position);
 
@@ -100,7 +100,7 @@ Type parse_any_signature(std::string_view signature);
 /// Returns the text of a union's label: that of its unsigned number if the discriminator is one of 64 bits.
 std::string label_text(Kind discriminator, std::int64_t label);
 
-/// Returns the bytes of a primitive in CDR, which is also its alignment (except for long double: 8); 0 for everything else.
+/// Returns the size of a primitive in CDR, in bytes. It is also its alignment, except for long double (8). 0 for other kinds.
 /// A wide character is not a primitive: its length precedes it.
 std::size_t primitive_size(Kind kind);
 std::size_t primitive_alignment(Kind kind);
@@ -113,8 +113,8 @@ bool contains(const Type& type, Kind kind);
 /// enumerations, whose number is checked.
 bool is_plain(const Type& type);
 
-/// Returns the bytes that each message of the type takes in CDR; nothing if this depends on its values, or for an array of
-/// non-primitives.
+/// Returns the number of bytes that each message of the type takes in CDR; nothing if it depends on the values, or for an
+/// array of non-primitives.
 std::optional<std::size_t> fixed_bytes(const Type& message);
 
 /// Returns an upper bound of the bytes that a value takes in CDR, including padding; infinity if the type sets no bound

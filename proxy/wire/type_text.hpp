@@ -8,14 +8,14 @@
 
 namespace tandem::wire {
 
-/// Returns the text for a type in messages: `double`, `array of 3 float`, `string of at most 80`.
+/// Returns the name of a type for log and error messages: `double`, `array of 3 float`, `string of at most 80`.
 std::string type_name(const Type& type);
 
 /// Returns a clause for a difference between two types, if one of them crosses in the form of another one: `; an any crosses as
 /// a structure of a string and a sequence of octets`. Otherwise empty.
 std::string crossing_hint(Kind one, Kind other);
 
-/// Returns the signature of a message or an operation without the names of members, for messages. Throws nothing.
+/// Returns the signature of a message or an operation without the names of members, for log messages. Throws nothing.
 std::string without_names(std::string_view signature);
 
 /// Returns why a type cannot cross: the reason of the first Kind::unsupported in it; empty if there is none.

@@ -178,7 +178,7 @@ ReplyView CallClient::State::fail_to_start(CallStart start, std::uint32_t slot, 
                          "arguments of " + std::to_string(bytes) +
                              (exceeds_file_limit(queue.view.loans, slot, bytes)
                                   ? " bytes exceed this process's limit of file sizes; raise it (ulimit -f)"
-                                  : " bytes find no memory in /dev/shm"),
+                                  : " bytes do not fit into the free memory of /dev/shm"),
                          memory);
     queue.view.header->overloads.fetch_add(1, std::memory_order_relaxed);
     return fail_with(CallStatus::overload,
@@ -187,7 +187,7 @@ ReplyView CallClient::State::fail_to_start(CallStart start, std::uint32_t slot, 
                      memory);
 }
 
-/// Waits for a slot behind the callers that came before. The time that a CallControl allows bounds the whole call.
+/// Waits for a slot after the callers that came before. The time that a CallControl allows bounds the whole call.
 ReplyView CallClient::State::begin_in_turn(std::span<const std::byte> arguments, std::uint64_t timeout_ns,
                                            CallTicket& ticket, ResultMemory& memory) {
     const CallControl control = find_control ? find_control() : CallControl{};
@@ -303,7 +303,8 @@ ReplyView CallClient::State::take_loan(const CallTicket& ticket, CallStatus stat
     } catch (const std::bad_alloc&) { // the slot must not stay in use
         caller.finish(ticket);
         return fail_with(CallStatus::exception,
-                         "results of " + std::to_string(bytes) + " bytes find no memory in this process",
+                         "results of " + std::to_string(bytes) +
+                             " bytes do not fit into the free memory of this process",
                          memory);
     }
     if (!caller.copy_loan(ticket, results.data(), bytes)) return take_damaged(ticket, memory);

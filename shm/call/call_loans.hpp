@@ -6,7 +6,7 @@
 
 namespace tandem::shm {
 
-/// Long payloads in the segment's file, behind the mapped memory (layout.hpp). Each slot has one, which belongs to the call in
+/// Long payloads in the segment's file, after the mapped memory (layout.hpp). Each slot has one, which belongs to the call in
 /// the slot.
 struct CallLoans {
     int file = -1;

@@ -59,7 +59,7 @@ CallStage stage_of(const CallSlotWords& slot); ///< Returns none if there is no 
 /// Adds the calls that a slot has counted.
 void count_slot(CallCounters& sum, const CallSlotWords& slot);
 
-/// Returns the bytes that a call queue takes in an arena; 0 for invalid options.
+/// Returns the number of bytes that a call queue takes in an arena; 0 for invalid options.
 std::uint64_t call_queue_size(const CallQueueOptions& options);
 
 // Used by Segment.

@@ -42,7 +42,7 @@ void IncomingCall::State::prepare_results(const TakenCall& call, CallStatus& sta
     if (worker.given_up(call)) bytes = {};
     if (bytes.size() <= CallView::result_room || worker.prepare_results(call, bytes.data(), bytes.size()))
         return;
-    constexpr std::string_view no_memory = "the results find no memory in /dev/shm",
+    constexpr std::string_view no_memory = "the results do not fit into the free memory of /dev/shm",
                                limited = "the results exceed the limit of file sizes of the process that "
                                          "executes the call; raise it (ulimit -f)";
     const bool exceeds_limit = exceeds_file_limit(queue.view.loans, call.slot, bytes.size());

@@ -21,7 +21,7 @@ enum class CallStatus : std::uint32_t {
 
 constexpr std::uint64_t call_sequence_mask = (std::uint64_t{1} << 28) - 1;
 
-/// tag: a CallState in a request word, a CallStatus in a reply word, 0 in the others.
+/// Packs a word: 4 bits of `tag` (CallState of a request, CallStatus of a reply, else 0), 28 of `sequence`, 32 of `length`.
 constexpr std::uint64_t call_word(std::uint32_t tag, std::uint64_t sequence, std::uint64_t length) {
     return (length << 32) | ((sequence & call_sequence_mask) << 4) | (tag & 15U);
 }

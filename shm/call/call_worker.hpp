@@ -109,8 +109,8 @@ class CallWorker {
     ///     caller: word = submitted | workers_asleep? wake
     ///
     /// All seq_cst: either the worker sees the call, or the caller sees the sleeper; and then the kernel sees
-    /// that wake_count is no longer w. If the poller has left with a call while nobody slept yet, `polling`
-    /// still says yes; so a worker that is about to sleep corrects it (or the poller is back, and sees all).
+    /// that wake_count is no longer w. If the poller took a call and left before anybody slept, `polling`
+    /// still is yes. So a worker that is about to sleep corrects it, unless the poller is back and sees all calls.
     void sleep(std::uint64_t until) {
         auto& header = *view_.header;
         header.workers_asleep.fetch_add(1, std::memory_order_seq_cst);

@@ -112,7 +112,7 @@ bool is_stopped(std::uint32_t pid) {
     return name_end != std::string::npos && (text[name_end + 2] == 'T' || text[name_end + 2] == 't');
 }
 
-/// Sets the pid, unless it means nothing in this pid namespace.
+/// Sets the pid, unless it has no meaning in this pid namespace.
 void set_pid(const ProcessIdentity& process, ObservedSide& side) {
     const bool elsewhere = find_process(process) == ProcessLookup::elsewhere;
     (elsewhere ? side.pid_elsewhere : side.pid) = process.pid;

@@ -61,7 +61,7 @@ struct ObservedObject {
     std::string name; ///< as it was written: may contain any byte except zero
     std::uint64_t bytes;
     std::uint64_t file_offset; ///< its beginning in the segment's file
-    std::string damage;        ///< empty: valid; otherwise the fields of the derived struct mean nothing
+    std::string damage;        ///< empty: valid; otherwise the fields of the derived struct are meaningless
 };
 
 /// A blob with a copy of its bytes; of a larger blob, the first MiB.

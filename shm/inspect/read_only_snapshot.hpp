@@ -38,13 +38,13 @@ class ReadOnlySnapshot {
         return got == static_cast<ssize_t>(to.size());
     }
 
-    /// Copies a struct. A word that is written meanwhile might be torn: then one figure of one observation is wrong, and
+    /// Copies a struct. A word that a process is just writing may be torn. Then one figure of this observation is wrong, and
     /// nothing else.
     template <class T, std::size_t Bytes>
     bool read(std::uint64_t offset, Snapshot<T, Bytes>& to) const {
         return read(offset, to.room());
     }
-    /// Copies a word; empty if the file ends before.
+    /// Copies a word; empty if it is not within the file.
     std::optional<std::uint64_t> read_word(std::uint64_t offset) const {
         std::uint64_t word = 0;
         if (!read(offset, std::as_writable_bytes(std::span(&word, 1)))) return std::nullopt;

@@ -36,7 +36,7 @@ class RingFollower {
     /// Called with each message. If it throws, the message counts as delivered.
     using Deliver = std::function<void(const FollowedRecord&)>;
 
-    /// Where to begin: behind the newest message, or with the oldest message that the reader has not taken.
+    /// Where to begin: after the newest message, or with the oldest message that the reader has not taken.
     enum class Begin { newest, oldest };
 
     /// `ring`: as observe() found it in this file. Begins at once.

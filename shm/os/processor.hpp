@@ -56,7 +56,7 @@ struct Processor : PortableProcessor {
 struct Processor : PortableProcessor {
     static void pause() { asm volatile("isb" ::: "memory"); } // most cores ignore `yield`
 
-    /// Returns the generic timer, whose ticks have 1 to 53 ns.
+    /// Returns the generic timer, whose ticks take 1 to 53 ns.
     static std::uint64_t counter() {
         std::uint64_t ticks = 0;
         asm volatile("mrs %0, cntvct_el0" : "=r"(ticks));

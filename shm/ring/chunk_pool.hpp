@@ -39,7 +39,7 @@ class ChunkPool {
         return false;
     }
 
-    std::uint32_t current() const { return current_; }
+    std::uint32_t current() const { return current_; } ///< the index that find_free() chose
 
     /// Lends the current chunk to the record with this sequence.
     void lend(std::uint64_t sequence) { lent_to_[current_] = sequence; }

@@ -44,8 +44,8 @@ Sizes sizes_of(const std::string& name, const RingOptions& options) {
     if (!sizes.valid())
         throw Error(
             "ring '" + name +
-            "': max_record and capacity with room for two of it up to 512 MiB, and 0 or 2 to 64 chunks "
-            "longer than max_record, up to 1 GiB, expected");
+            "': expected max_record and a capacity with room for two of it, up to 512 MiB, and 0 or 2 to 64 "
+            "chunks longer than max_record, up to 1 GiB");
     return sizes;
 }
 

@@ -33,7 +33,7 @@ struct RingSizes {
         const; ///< Returns whether a ring can have these sizes. Within their limits no sum of them overflows.
 };
 
-/// Returns the bytes that a ring takes in an arena; 0 for sizes that no ring has.
+/// Returns the number of bytes that a ring takes in an arena; 0 for sizes that no ring has.
 std::uint64_t ring_bytes(const RingSizes& sizes);
 
 /// A ring that Segment has found or created. RingWriter and RingReader are constructed from it.

@@ -127,7 +127,7 @@ RingConsumer<A>::RingConsumer(const RingView<A>& ring)
     corrupt_ = position_ % layout::line != 0;
 }
 
-/// Returns the commit word of the next record, whose cells are given. Also requests the line behind it, for records of two
+/// Returns the commit word of the next record, whose cells are given. Also requests the line after it, for records of two
 /// lines.
 template <class A>
 inline std::uint64_t RingConsumer<A>::load_next(const typename A::Cell* cells) {
@@ -286,7 +286,7 @@ inline bool RingConsumer<A>::move_tail(std::uint64_t& from, std::uint64_t to,
 
 /// Moves the tail from its current position to the end of `parsed`. The copy made before is whole if the tail has not
 /// passed the record's start. The commit word at the tail contains the oldest sequence number, from which follows the
-/// number of skipped records (padding has the number of the record behind it).
+/// number of skipped records (padding has the number of the record after it).
 template <class A>
 bool RingConsumer<A>::take(const ParsedRecord& parsed, std::uint64_t tail, std::uint64_t& skipped) {
     for (int attempt = 0; attempt < max_attempts && tail <= parsed.start; ++attempt) {

@@ -63,7 +63,7 @@ class alignas(layout::line_pair) RingProducer {
 
     /// Publishes a message of up to max_record bytes if it fits after the last one, without reserve() and commit().
     /// Returns false and changes nothing if it does not fit, if that is not known yet, or if its age must be measured.
-    /// `readable_behind`: up to 48 bytes behind `bytes` are readable and may be copied, too.
+    /// `readable_behind`: up to 48 bytes after `bytes` are readable and may be copied, too.
     bool write_behind_last(const void* bytes, std::size_t count, std::uint64_t stamp, bool readable_behind);
     /// Publishes like write_behind_last(), but a message of one word and `count` bytes at another address.
     bool write_words_behind_last(std::uint64_t first, const void* others, std::size_t count,
@@ -259,7 +259,7 @@ inline void RingProducer<A>::clear_commit_word(std::uint64_t position) {
     cleared_at_ = position;
 }
 
-/// Clears the commit word behind the next record in advance, assuming that the next record is as long as the last one.
+/// Clears the commit word after the next record in advance, assuming that the next record is as long as the last one.
 /// Neither this store nor the transfer of its line then delays the next record.
 template <class A>
 inline void RingProducer<A>::prepare_next(std::uint64_t head, std::uint64_t record) {
@@ -269,7 +269,7 @@ inline void RingProducer<A>::prepare_next(std::uint64_t head, std::uint64_t reco
 
 /// Copies a full line of the commit word without a loop, in half of the instructions. This line comes last, directly before
 /// the commit word: the reader polls it, and takes it away while the writer waits for the other lines. With
-/// `readable_behind`, which is a constant, copies 16 bytes at a time to the end, behind which the record has room.
+/// `readable_behind`, which is a constant, copies 16 bytes at a time to the end, after which the record has room.
 template <class A>
 inline void RingProducer<A>::copy_payload(typename A::Cell* to, const void* payload, std::size_t used,
                                           bool readable_behind) {

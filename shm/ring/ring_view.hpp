@@ -36,7 +36,7 @@ inline void count_one(layout::Word64& counter) {
     counter.store(counter.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
 }
 
-/// Returns the bytes of the ring that a record with this payload takes: whole lines.
+/// Returns the number of bytes that a record with this payload takes in the ring: whole cache lines.
 constexpr std::uint64_t record_size(std::uint64_t payload_bytes) {
     return (layout::record_header + payload_bytes + layout::line - 1) & ~std::uint64_t{layout::line - 1};
 }

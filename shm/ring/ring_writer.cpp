@@ -12,7 +12,7 @@ template class RingProducer<RealAtomics>;
 
 namespace {
 
-/// Not filled, so that it takes no memory before it is used. The line behind a payload is readable (publish()).
+/// Not filled, so that it takes no memory before it is used. The line after a payload is readable (publish()).
 std::unique_ptr<std::uint64_t[]> scratch_for(const RingView<RealAtomics>& ring) {
     const std::size_t bytes = payload_front + round_up(ring.max_record, word_bytes) + layout::line;
     return std::make_unique_for_overwrite<std::uint64_t[]>(bytes / word_bytes);

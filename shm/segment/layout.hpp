@@ -24,7 +24,7 @@
 // Memory is reserved and touched at creation. In a sparse segment, an object's header when it is added, the records of a
 // ring with the first message, a chunk and a call's overflow buffer when they are first used.
 //
-// Bytes 0 to 2 of the file serve as locks (liveness.hpp); their values mean nothing.
+// Bytes 0 to 2 of the file serve as locks (liveness.hpp); their values are meaningless.
 //
 // All code that reads a segment assumes that the peer changes any byte at any time: sizes and offsets are copied
 // once, checked, and then only the copy is used. For the size of the file see truncation_guard.hpp.
@@ -117,7 +117,7 @@ static_assert(offsetof(SideHeader, pid_namespace) == 16 && offsetof(SideHeader, 
 static_assert(offsetof(SideHeader, published) == 256 && offsetof(SideHeader, directory) == 384);
 static_assert(sizeof(SideHeader) == 384 + max_objects * sizeof(DirectoryEntry));
 
-constexpr std::size_t arenas_begin = 139264; // behind both SideHeaders, next page
+constexpr std::size_t arenas_begin = 139264; // after both SideHeaders, next page
 static_assert(page + 2 * sizeof(SideHeader) <= arenas_begin && arenas_begin % page == 0);
 
 // Ring: RingHeader | data[capacity] | chunks, if it has any (below). A position is a 64-bit count of bytes
@@ -149,7 +149,7 @@ struct BasicRingHeader {
     // The writer's line, with its counters: a message touches no more of the header than this line and the reader's.
     alignas(line_pair) Word64 head; // end of the newest record; moved by the writer only
     Word64 newest;                  // start of the newest record; for readers that skip to it
-    // The writer has stored, and stores, nothing at or behind this position. Stored before what it allows: so an observer
+    // The writer has stored, and stores, nothing at or after this position. Stored before what it allows: so an observer
     // knows that what it has copied from `capacity` bytes before it on was whole.
     Word64 write_limit;
     Word64 sent; // counters, see RingCounters
@@ -191,7 +191,7 @@ static_assert(offsetof(RingHeader, age) == 384 && sizeof(RingHeader) == 384 + si
 
 constexpr std::size_t record_header = 16;
 
-// Chunks: behind data, the ChunkWords of all chunks, then the chunks, each at a page of the file. A chunk belongs
+// Chunks: after data, the ChunkWords of all chunks, then the chunks, each at a page of the file. A chunk belongs
 // to the writer until it has published a record that refers to it. It then belongs to the side that takes that
 // record off the ring (the reader to read it, the writer to drop it). The reader gives the chunk back by storing
 // the record's sequence, or, having skipped that record, any later one up to the one before the record it took.
@@ -220,7 +220,7 @@ static_assert(sizeof(ChunkWords) == line_pair);
 //   work     claim (64)  progress        answered
 //
 // What is longer continues in the slot's overflow buffer. A payload longer than short_call_bytes is passed by loan: all of it
-// is in the file behind total_bytes, at (2 * slot + callers) * max_loan_bytes, and is moved by pwrite() and pread(). A process
+// is in the file after total_bytes, at (2 * slot + callers) * max_loan_bytes, and is moved by pwrite() and pread(). A process
 // therefore maps no more than before, touches no page that has no memory, and cannot be stopped by a hole that the peer has
 // made. The caller gives the memory back after the reply. A segment has at most one queue with loans for each calling side.
 //
@@ -248,7 +248,7 @@ static_assert(sizeof(ChunkWords) == line_pair);
 // replies: the caller may have seen the claim.
 //
 // A worker that finds the request word changed while the call runs knows that nobody waits for its results any more. It
-// may stop, and has to answer all the same.
+// may stop early, but must still answer.
 //
 // Which slots are idle is known to the callers' process alone: all callers live in one process, its death ends them
 // all, and the generation of a dead process gets no other callers. So nothing has to be cleaned up after it.
@@ -321,7 +321,7 @@ struct BasicCallQueueHeader {
     Atomic<std::uint64_t> timeouts;                      // given up at the deadline
     Atomic<std::uint64_t> cancels;                       // given up before it
     Atomic<std::uint64_t> worker_wakes;                  // system calls to wake a worker
-    // The same, counted by the server's side.
+    // Rare events that the server's side counts.
     alignas(line_pair) Atomic<std::uint64_t> expired; // taken after the deadline, not run
     Atomic<std::uint64_t> caller_wakes;               // system calls to wake a caller
 };
@@ -332,7 +332,7 @@ enum class WorkerPolling : std::uint32_t { no, yes, soon };
 
 // The first 1024 calls of each slot, and then every 16th, are timed.
 struct alignas(line_pair) CallTimes {
-    Histogram round_trip; // from the begin of the call to its reply; measured by the caller
+    Histogram round_trip; // from the start of the call to its reply; measured by the caller
     Histogram service;    // from taken to answered; measured by the worker
 };
 

@@ -58,7 +58,7 @@ struct Probe {
 };
 Probe probe_segment(const std::string& path, const Access& access = {geteuid(), std::nullopt});
 
-/// Returns a generation behind `newest` whose name no foreign file has. Usually it is the next one; where others have taken
+/// Returns a generation after `newest` whose name no foreign file has. Usually it is the next one; where others have taken
 /// that name, it is a later one that they could not foresee. Throws Error if there is none.
 std::uint64_t next_generation(const std::string& link, std::uint64_t newest, const Access& access);
 

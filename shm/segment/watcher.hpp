@@ -21,7 +21,7 @@ class Watcher {
     /// Throws Error if the system has no inotify instance left.
     explicit Watcher(const std::string& link);
 
-    /// [one thread] Watches this open file instead of any earlier one, and no process. Events: a side joins, publishes or
+    /// [one thread] Watches this open file. Stops watching any earlier file and process. Events: a side joins, publishes or
     /// leaves, or a process truncates, supersedes or removes the file. Throws Error.
     void start_watching(int fd);
     /// [one thread] Also watches for the end of this process. Returns an errno value if the system refuses that.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Caller and worker of a call queue killed behind every one of their stores.
+// Caller and worker of a call queue killed after every one of their stores.
 #include "death.hpp"
 
 #include "shm/call/call_caller.hpp"
@@ -66,7 +66,7 @@ void serve(const BasicCallView<CrashPointAtomics>& view, const WorkerScenario& s
 
 } // namespace
 
-TEST_CASE("a worker killed behind any of its stores costs the caller an error at most") {
+TEST_CASE("a worker killed after any of its stores costs the caller an error at most") {
     for (const auto& scenario : workers) {
         PointNames names(std::string("worker, ") + scenario.name);
         for (unsigned k = 1, died = 1; died != 0; ++k) {
@@ -159,7 +159,7 @@ const std::vector<CallerScenario> callers = {
 
 } // namespace
 
-TEST_CASE("a caller killed behind any of its stores costs the server nothing") {
+TEST_CASE("a caller killed after any of its stores costs the server nothing") {
     const auto mode = GENERATE(WaitMode::spin_then_futex, WaitMode::futex);
     for (const auto& scenario : callers) {
         PointNames names(std::string("caller, ") + scenario.name);

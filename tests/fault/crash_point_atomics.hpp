@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The atomics of shm/os/atomics.hpp, with a point behind every store: a process can be told to die, by a SIGKILL
+// The atomics of shm/os/atomics.hpp, with a point after every store: a process can be told to die, by a SIGKILL
 // to itself, at the k-th point that it passes. The name of a point is the source line of the store. The
 // memory is laid out like that of RealAtomics, so one side may be this and the other what ships.
 #pragma once

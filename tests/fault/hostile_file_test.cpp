@@ -44,7 +44,7 @@ void use_all(Segment& mine, RingWriter& writer, RingReader& reader, CallClient& 
 
 } // namespace
 
-TEST_CASE("a file that is shorter than its header says is refused and its observer says damaged") {
+TEST_CASE("a file that is shorter than its header says is refused, and an observer reports it as damaged") {
     for (const off_t bytes : {off_t{0}, off_t{1}, off_t{87}, off_t{4095}, off_t{4096}, off_t{5000},
                               off_t{layout::arenas_begin}, whole_file - 4096, whole_file - 1}) {
         Link link;
@@ -69,7 +69,7 @@ TEST_CASE("a file that is shorter than its header says is refused and its observ
     }
 }
 
-TEST_CASE("a file that grows is used as before, because long calls lie behind the segment") {
+TEST_CASE("a file that grows is used as before, because long calls are stored after the segment") {
     Link link;
     auto first = join(link, Side::first, small(file_arena));
     REQUIRE(truncate(first->path().c_str(), whole_file + 4096) == 0);
@@ -78,7 +78,7 @@ TEST_CASE("a file that grows is used as before, because long calls lie behind th
     CHECK_FALSE(first->superseded());
 }
 
-TEST_CASE("with the guard a file that is cut while in use ends no process and superseded() says to leave") {
+TEST_CASE("with the guard, a file that is truncated in use ends no process, and superseded() returns true") {
     for (const off_t bytes : {off_t{0}, off_t{4096}, off_t{8192}, off_t{layout::arenas_begin},
                               off_t{layout::arenas_begin + 8192}}) {
         Link link;
@@ -100,7 +100,7 @@ TEST_CASE("with the guard a file that is cut while in use ends no process and su
             first.reset();
             second.reset();
             if (!link.files().empty()) return 4;
-            // The next generation is as good as new.
+            // The damage does not affect the next generation.
             first = join(link, Side::first, small(file_arena));
             second = join(link, Side::second, small(file_arena));
             return first->peer_state() == PeerState::alive ? 0 : 5;

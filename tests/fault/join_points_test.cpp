@@ -37,7 +37,7 @@ const std::vector<Scenario> scenarios = {
 
 } // namespace
 
-TEST_CASE("killed between any two system calls of join or leave a side is only dead and nothing is left") {
+TEST_CASE("a side killed between any two system calls of join or leave is dead, and nothing of it remains") {
     if (!Stepped::possible()) TANDEM_SKIP("this process may not trace its children");
     for (const auto& scenario : scenarios) {
         unsigned points = 0;

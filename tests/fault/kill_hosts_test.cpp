@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two hosts under data, event and call load from both sides, of which one is killed at a random moment, again and again.
+// Two hosts under data, event and call load from both sides. Again and again, one of them is killed at a random moment.
 #include "tests/integration/two_hosts.hpp"
 
 #include "kept_segment.hpp"
@@ -85,7 +85,7 @@ class LoadedHosts : public TwoHosts {
             for (const auto& begun : counts(host).begun_ns) all.push_back(begun);
         return all;
     }
-    /// For how long the oldest call under way of that side has lasted, in ms.
+    /// The age of that side's oldest call under way, in ms.
     std::uint64_t longest_call_ms(const std::string& host) const {
         std::uint64_t longest = 0;
         const std::uint64_t now = load_clock_ns();

@@ -43,7 +43,7 @@ void check_in_small_shm(const Body& body) {
 
 } // namespace
 
-TEST_CASE("a /dev/shm of 1 MiB is an error that names both numbers and a segment that fits is made") {
+TEST_CASE("a /dev/shm of 1 MiB is an error that names both sizes, and a segment that fits is created") {
     Link link;
     check_in_small_shm([&] {
         // A page or so of the 1 MiB may be the file system's own.
@@ -54,8 +54,7 @@ TEST_CASE("a /dev/shm of 1 MiB is an error that names both numbers and a segment
     });
 }
 
-TEST_CASE(
-    "a chunk of a sparse segment that finds no memory is refused and counted and what is smaller passes") {
+TEST_CASE("a chunk without memory in a sparse segment is refused and counted, and smaller messages pass") {
     check_in_small_shm([&] {
         JoinOptions options = small(64 * 1024);
         options.sparse = true;
@@ -101,7 +100,7 @@ TEST_CASE(
     });
 }
 
-TEST_CASE("a long call in a full /dev/shm fails with the reason, and short ones go on") {
+TEST_CASE("a long call in a full /dev/shm fails with the reason, and short ones still work") {
     const bool sparse = GENERATE(true, false);
     check_in_small_shm([&] {
         JoinOptions options = small(256 * 1024);
@@ -116,7 +115,7 @@ TEST_CASE("a long call in a full /dev/shm fails with the reason, and short ones 
         const std::string long_text(2'000'000, 'a');
         if (const Reply reply = client.call(bytes_of(long_text), 1s);
             reply.status != CallStatus::overload ||
-            reply.text() != "arguments of 2000000 bytes find no memory in /dev/shm")
+            reply.text() != "arguments of 2000000 bytes do not fit into the free memory of /dev/shm")
             return 1;
         std::thread worker([&] {
             server.take(10s)->reply(CallStatus::ok, long_text);
@@ -126,13 +125,13 @@ TEST_CASE("a long call in a full /dev/shm fails with the reason, and short ones 
         const bool goes_on = client.call(bytes_of("short"), 10s).text() == "short";
         worker.join();
         return goes_on && reply.status == CallStatus::exception &&
-                       reply.text() == "the results find no memory in /dev/shm"
+                       reply.text() == "the results do not fit into the free memory of /dev/shm"
                    ? 0
                    : 2;
     });
 }
 
-TEST_CASE("a ring whose chunks do not all find memory goes on with those that do") {
+TEST_CASE("a ring continues with the chunks for which there is memory") {
     check_in_small_shm([&] {
         JoinOptions options = small(64 * 1024);
         options.sparse = true;
@@ -174,8 +173,8 @@ TEST_CASE("a limit on the size of files is an error that names the bytes needed 
     CHECK(child.wait() == 0);
 }
 
-TEST_CASE(
-    "a long call beyond the limit of file sizes fails with the limit as the reason, and short ones go on") {
+TEST_CASE("a long call beyond the limit of file sizes fails with the limit as the reason, and short ones "
+          "still work") {
     Child child([] {
         Link link;
         const auto first = join(link, Side::first, small(256 * 1024));
@@ -206,7 +205,7 @@ TEST_CASE(
     CHECK(child.wait() == 0);
 }
 
-TEST_CASE("an object of a sparse segment that finds no memory is an error that names both numbers") {
+TEST_CASE("an object without memory in a sparse segment is an error that names both sizes") {
     check_in_small_shm([&] {
         JoinOptions options = small(256 * 1024);
         options.sparse = true;

@@ -78,7 +78,7 @@ void report(const char* what, std::vector<std::uint64_t>& times) {
 
 } // namespace
 
-TEST_CASE("a side killed at any moment comes back and the survivor goes on with it") {
+TEST_CASE("a side killed at any moment comes back, and the survivor continues with it") {
     std::mt19937 random(4711);
     const auto up_to_50_ms = [&] {
         std::this_thread::sleep_for(std::chrono::microseconds(random() % 50'000));
@@ -139,7 +139,8 @@ TEST_CASE("both sides killed and started in any order meet again and remove what
     report("both sides killed", times);
 }
 
-TEST_CASE("of several starting at once beside the dead exactly one wins each side and both meet") {
+TEST_CASE("of several processes that start at once after a death, exactly one gets each side, and both sides "
+          "meet") {
     struct Start {
         std::atomic<bool> go{false};
         std::atomic<int> won[2]{}, refused{0}, other_error{0};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writer and reader of a ring killed behind every one of their stores.
+// Writer and reader of a ring killed after every one of their stores.
 #include "death.hpp"
 
 #include "tests/shm/view_as.hpp"
@@ -143,7 +143,7 @@ void check_reader_survives(RingReader& reader, const Before& before, std::uint64
 
 } // namespace
 
-TEST_CASE("a writer killed behind any of its stores leaves whole records and a link that goes on") {
+TEST_CASE("a writer killed after any of its stores leaves whole records, and the link continues") {
     for (const auto& scenario : writers) {
         PointNames names(std::string("writer, ") + scenario.name);
         for (unsigned k = 1, died = 1; died != 0; ++k) {
@@ -218,7 +218,7 @@ void check_writer_survives(RingWriter& writer) {
 
 } // namespace
 
-TEST_CASE("a reader killed behind any of its stores does not stop the writer and the link goes on") {
+TEST_CASE("a reader killed after any of its stores does not stop the writer, and the link continues") {
     for (const auto& scenario : readers) {
         PointNames names(std::string("reader, ") + scenario.name);
         for (unsigned k = 1, died = 1; died != 0; ++k) {

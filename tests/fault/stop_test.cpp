@@ -38,7 +38,7 @@ void stay_stopped(const Link& link, const Segment& survivor) {
 
 } // namespace
 
-TEST_CASE("a writer that was stopped goes on without a gap") {
+TEST_CASE("a writer that was stopped continues without a gap") {
     Link link;
     Shared<Flags> flags;
     auto first = join(link, Side::first, large());
@@ -81,7 +81,7 @@ TEST_CASE("a writer that was stopped goes on without a gap") {
     CHECK(reader.counters().dropped() == 0);
 }
 
-TEST_CASE("a reader that was stopped has missed what was dropped and the books balance") {
+TEST_CASE("a reader that was stopped has missed what was dropped, and the counters add up") {
     Link link;
     Shared<Flags> flags;
     auto first = join(link, Side::first, large());

@@ -89,7 +89,7 @@ class HostileLink {
     std::vector<std::byte> pristine_;
 };
 
-/// Does the same as `tandem echo`.
+/// Decodes a message as `tandem echo` does.
 void show(const command::LinkFollower::Port& port, const shm::FollowedRecord& record) {
     try {
         command::message_to_json(port, record.bytes, record.stamp)

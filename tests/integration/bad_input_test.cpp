@@ -72,7 +72,7 @@ TEST_CASE("a host whose peer never joins gives up and names the peer") {
     TwoHosts hosts;
     hosts.set_wait("0.2");
     hosts.start_opros();
-    check_refused(hosts, "opros", {hosts.link(), "InterceptorComp", "did not come within 0.2 s"});
+    check_refused(hosts, "opros", {hosts.link(), "InterceptorComp", "did not join within 0.2 s"});
     CHECK_FALSE(hosts.left_in_shared_memory());
 }
 
@@ -103,7 +103,8 @@ TEST_CASE("an invalid wait mode is refused by both hosts, and by the bridge in a
     others.start_opros();
     unsetenv("TANDEM_WAIT_MODE");
     for (const auto* host : {"rtm", "opros"})
-        check_refused(others, host, {"TANDEM_WAIT_MODE is 'sleepy'", "same-core expected"});
+        check_refused(others, host,
+                      {"TANDEM_WAIT_MODE is 'sleepy'", "expected spin, spin-then-futex, futex or same-core"});
 }
 
 TEST_CASE("a link name in use by a living process is refused") {

@@ -28,7 +28,7 @@ struct RetypedHosts : ChangingHosts {
 
 } // namespace
 
-TEST_CASE("ports that an RTC adds again with another type are connected if the types match, also after "
+TEST_CASE("ports that an RTC adds again with another type are connected if the types match, even after "
           "changing back") {
     RetypedHosts hosts;
     hosts.start_rtm();

@@ -99,7 +99,7 @@ TEST_CASE(
     CHECK_FALSE(hosts.left_in_shared_memory());
 }
 
-TEST_CASE("ports with contents of several types can send to one EventInPort, also after the RTM host has "
+TEST_CASE("ports with contents of several types can send to one EventInPort, even after the RTM host has "
           "returned") {
     OvenHosts hosts(TwoHosts::connection("event", "Talker", "button", "Adaptor", "panel") +
                     TwoHosts::connection("event", "Talker", "label", "Adaptor", "panel"));

@@ -77,7 +77,7 @@ struct WaitingHosts : TwoHosts {
                     difference[fmt::format("{} {}", host, thread)] = more;
         return difference;
     }
-    /// The same of the first second without any; of the last one when there is none for long.
+    /// Waits up to 30 s for a second without context switches. Returns those of the last second.
     std::map<std::string, long> switches_when_settled() const {
         std::map<std::string, long> switches;
         for (int second = 0; second < 30; ++second)
@@ -101,7 +101,7 @@ long sum_of(const std::map<std::string, long>& switches) {
 /// 3 s, with TANDEM_STRESS=20 and more 60 s.
 std::chrono::seconds observed_time() { return std::chrono::seconds(tandem::test::stress(3, 60)); }
 
-// Nothing of ours wakes up. The system may cause some wake-ups: a signal, a reclaimed page, a debugger. The slowest timer that
+// No thread of Tandem wakes up. The system may cause some wake-ups: a signal, a reclaimed page, a debugger. The slowest timer that
 // would be a fault is one of a second.
 constexpr long max_switches = 2;
 
@@ -129,7 +129,7 @@ TEST_CASE("idle hosts are not woken, and notice a call, a message, a death and a
     hosts.kill("rtm");
     REQUIRE(hosts.says("opros", "is down: the peer process has gone"));
     hosts.ask("beta");
-    CHECK(hosts.says("opros", "not ready: the peer is not there for beta\n"));
+    CHECK(hosts.says("opros", "not ready: the peer is not connected for beta\n"));
     const std::size_t killed = hosts.output("rtm").size();
     hosts.start_rtm();
     REQUIRE(hosts.says("rtm", "ready", killed));

@@ -90,7 +90,7 @@ TEST_CASE("pictures of 25 cameras with any bpp go to a component that trusts the
         320 * 240 * 4 + 64 * 48 * (3 + 3 + 4 + 2 + 1 + 2 + 12) + 3 + 64 + 65535 + 33 * 24 * 3;
     CHECK(hosts.says("opros", "GalleryComp: 113 pictures of " + std::to_string(8 * bytes + 2) + " bytes\n"));
     CHECK(hosts.says("rtm", "GalleryRtc: 113 pictures, 0 of other sizes\n"));
-    CHECK(hosts.says("opros", "'pixels' has 4608 elements, expected are 1, 2, ... for each of "
+    CHECK(hosts.says("opros", "'pixels' has 4608 elements, expected 1, 2, ... for each of "
                               "width x height = 64 x 48"));
     INFO(hosts.output("opros") + hosts.output("rtm"));
     CHECK(hosts.stop("opros") == 0);

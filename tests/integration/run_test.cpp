@@ -119,7 +119,7 @@ class NotifySocket {
                       sizeof address) == 1) {
         }
     }
-    /// Returns whether the message arrives, also after others.
+    /// Returns whether the message arrives, even after others.
     bool tells(const std::string& wanted) {
         for (std::string message; !(message = next()).empty();)
             if (message == wanted) return true;
@@ -242,7 +242,7 @@ TEST_CASE("tandem run ends with the host's own message if a host cannot start") 
     CHECK_THAT(run.output(), !Contains("| ready"));
 }
 
-TEST_CASE("tandem run names a component that has not started beside `all hosts are ready`") {
+TEST_CASE("tandem run names a component that has not started along with `all hosts are ready`") {
     Run run;
     std::filesystem::remove(run.folder().path() / "TalkerComp/TalkerComp.so");
     run.start();
@@ -280,7 +280,7 @@ TEST_CASE("tandem run does not wait for a host whose peer could not start") {
     CHECK(run.exit_code() == 1);
     INFO(run.output());
     CHECK_THAT(run.output(),
-               Contains("had not come when this host was asked to stop") && !Contains("killed"));
+               Contains("had not joined when this host was asked to stop") && !Contains("killed"));
     CHECK_FALSE(run.left_in_shared_memory());
 }
 

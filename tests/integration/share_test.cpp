@@ -13,7 +13,7 @@ using tandem::test::Result;
 
 namespace {
 
-/// Two hosts, of which the OPRoS host shares its components, and `tandem rtm` for the RTM host.
+/// Two hosts, and `tandem rtm` for the RTM host. The OPRoS host shares its components.
 struct Shared : TwoHosts {
     explicit Shared(const std::string& names = "Motor") : port(unused_port()) {
         leave_out_talker_and_rtc();
@@ -176,7 +176,7 @@ TEST_CASE("a killed OPRoS host shows in its RTCs, and is followed when it return
     CHECK(hosts.shows("Motor", "ERROR"));
     CHECK(hosts.shows("Pump", "ERROR"));
     CHECK_FALSE(hosts.good({"reset", "Motor"}));
-    CHECK(hosts.says("rtm", "Motor: cannot reset the OPRoS component: the OPRoS host is not there"));
+    CHECK(hosts.says("rtm", "Motor: cannot reset the OPRoS component: the OPRoS host is not running"));
     const auto before = hosts.output("opros").size();
     hosts.start_opros();
     CHECK(hosts.shows("Motor", "ACTIVE"));

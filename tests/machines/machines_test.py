@@ -311,7 +311,7 @@ def rights(build):
         there = f"rtcloc://{pair.b.address}/CountIn0"
         for command in ("info", "deactivate", "exit"):
             assert pair.rtm(command, there, check=False).returncode != 0, command
-        pair.wait_for_log("b", f"it is of another machine at giop:tcp:{pair.a.address}:")
+        pair.wait_for_log("b", f"it comes from another machine at giop:tcp:{pair.a.address}:")
         pair.kill("b")
     pair.start_count("CountIn")
     there = f"rtcloc://{pair.b.address}/CountIn0"

@@ -78,7 +78,7 @@ def nodes(build):
     assert refused.returncode == 1 and refused.stdout.count("\n") == 1, refused.stdout
     assert "several nodes (in, out)" in refused.stdout and "--node ID" in refused.stdout, refused.stdout
     pair.start_node("a")
-    pair.wait_for_log("a", "NodeSource did not start, which is tried again")
+    pair.wait_for_log("a", "NodeSource did not start and will be tried again")
     pair.start_node("b")
     pair.wait_for_log("a", "component NodeSource has started")
     pair.wait_for_more_of_all()

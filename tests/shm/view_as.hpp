@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The same ring or call queue, seen through other atomics. Theirs must be laid out like those that ship.
+// Views of an existing ring or call queue through other atomics, which must have the layout of those in the product.
 #pragma once
 #include "shm/call/call_view.hpp"
 #include "shm/ring/ring_view.hpp"

@@ -51,7 +51,7 @@ class Engine:
 
 def our_engine(build):
     if not (build / "bin/rtm_host").exists():
-        fail(f"{build}/bin/rtm_host is not there: build Tandem, or name its build folder with --build")
+        fail(f"{build}/bin/rtm_host does not exist: build Tandem, or name its build folder with --build")
     return Engine("Tandem", build / "bin/rtm_host", build / "plugins/rtm", {})
 
 

@@ -15,7 +15,7 @@ constexpr int cold_intervals_ms[] = {1, 10, 100};
 
 /// Returns the operation of such a case: "cold-10ms".
 inline std::string cold_operation(int interval_ms) { return "cold-" + std::to_string(interval_ms) + "ms"; }
-/// Returns whether a case is one of these, also beside a floor: "paired-cold-10ms", "tail-cold-1ms".
+/// Returns whether a case is one of these, including those beside a floor: "paired-cold-10ms", "tail-cold-1ms".
 inline bool is_cold(const Case& bench_case) {
     return bench_case.operation.find("cold-") != std::string::npos;
 }

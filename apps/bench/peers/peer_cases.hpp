@@ -34,7 +34,7 @@ class PeerCases {
     PeerCases(Registry& registry, std::string subject, std::string daemon = {})
         : registry_(registry), subject_(std::move(subject)), daemon_(std::move(daemon)) {}
 
-    /// One way, 64 B, as half a round trip. If the reader sleeps, also the ratio to Tandem's ring, measured
+    /// One way, 64 B, as half a round trip. If the reader sleeps, adds the ratio to Tandem's ring, measured
     /// in alternation with it.
     template <class Endpoint>
     void add_one_way(Wake wake) {

@@ -120,7 +120,7 @@ void add_messages_across(Limits& limits, const std::string& direction) {
 }
 
 /// The ORB alone takes less than a call between two OpenRTM-aist processes. If both sides sleep, the wake-ups
-/// take nearly all of the time, also with the ORB, so such calls are compared with sleeping minimal rings.
+/// take nearly all of the time, even with the ORB, so such calls are compared with sleeping minimal rings.
 void add_calls_across(Limits& limits, const std::string& direction) {
     const std::string call = "tandem/bridge/call/16/", paired = "tandem/bridge/paired-call/16/";
     limits.at_most("call of 2 doubles, polling, " + direction + ", ns", 1500,

@@ -128,7 +128,7 @@ class Scanner {
         resolve(meant, place);
     }
 
-    // Components that RTCBuilder makes for tests include XSVC_impl.h, the implementation of services, also for an X.idl that
+    // Components that RTCBuilder makes for tests include XSVC_impl.h, the implementation of services, even for an X.idl that
     // only has data types. Returns the header with the types.
     std::string skeleton_without_services(const std::string& name) const {
         static const std::string implementation = "SVC_impl.h";

@@ -11,10 +11,10 @@ namespace tandem::command {
 /// path as syntax. Quoting does not help, because CMake copies the path into files of several languages.
 void require_cmake_path(const std::filesystem::path& path);
 
-/// Does the same for omniidl, which gives the names of files and folders to a shell in double quotes.
+/// Throws std::runtime_error for characters that a shell interprets in double quotes, because omniidl passes paths to one.
 void require_idl_path(const std::filesystem::path& path);
 
-/// Does the same for rtc.conf, whose lists have no quoting: its reader splits a path at a comma.
+/// Throws std::runtime_error for what a path in rtc.conf cannot contain, such as a comma: its lists have no quoting.
 void require_conf_path(const std::filesystem::path& path);
 
 /// Throws std::runtime_error, which names the module, if rtc.conf would read the name or the category of its component type as

@@ -167,7 +167,7 @@ bool add_installed(const std::string& output, Plugin& plugin) {
     return added;
 }
 
-// opencv2/opencv.hpp and others contained the C API in OpenCV 2 and 3, also where cv.h is included later. Returns
+// opencv2/opencv.hpp and others contained the C API in OpenCV 2 and 3, even where cv.h is included later. Returns
 // whether including cv.h first may help, and prints a note.
 bool add_cv_h(const std::string& output, Plugin& plugin) {
     const std::string name = dropped_by_opencv(first_error(output));

@@ -171,7 +171,7 @@ std::string for_symbol(const std::string& symbol, const BuildFacts& facts) {
     if (!package.empty() && !is_installed(package, facts)) return fmt::format("apt install {}", package);
     if (std::find(used.begin(), used.end(), name) == used.end())
         return (module.empty() ? "-l " : "--pkg-config ") + name;
-    return fmt::format("{} is used already and does not define it: {}", name, unknown);
+    return fmt::format("{} is already used and does not define it: {}", name, unknown);
 }
 
 std::string for_library(const std::string& library, const BuildFacts& facts) {

@@ -22,7 +22,7 @@ struct CensusModel {
     /// Finds the components in the folder and below. Adds the number of profiles that have no source to `without_source`.
     std::vector<Candidate> (*find)(const std::filesystem::path& folder, std::size_t& without_source);
     /// Loads the library in a child process. Writes a configuration with the component beside the library. Returns the
-    /// command of a host for it.
+    /// command line of a host that runs this configuration.
     std::vector<std::string> (*load)(const Candidate& candidate, const std::filesystem::path& library);
 };
 

@@ -17,7 +17,7 @@ class Confinement {
     Confinement(const Confinement&) = delete;
     Confinement& operator=(const Confinement&) = delete;
 
-    /// Kills the processes that a component left running, also those that became daemons, and empties the folder. No
+    /// Kills the processes that a component left running, including those that became daemons, and empties the folder. No
     /// other child process may run.
     void clean();
     /// Returns the folder.

@@ -33,7 +33,7 @@ bool is_loopback(const std::string& host) {
     return host == "localhost" || host == "[::1]" || host.compare(0, 4, "127.") == 0;
 }
 
-/// HOST, HOST:PORT, :PORT, `all`, or one of them behind giop:tcp: or giop:ssl:. Without a host, all addresses.
+/// HOST, HOST:PORT, :PORT, `all`, or one of them after giop:tcp: or giop:ssl:. Without a host, all addresses.
 TcpEndpoint parse_endpoint(std::string text) {
     for (const std::string prefix : {"giop:tcp:", "giop:ssl:"})
         if (text.compare(0, prefix.size(), prefix) == 0) text.erase(0, prefix.size());

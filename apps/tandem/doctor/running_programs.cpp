@@ -35,7 +35,7 @@ Program read_program(const Machine& machine, pid_t pid) {
     return program;
 }
 
-/// Returns the settings of an rtm_host: its rtc.conf (-f), overruled by options -o.
+/// Returns the settings of an rtm_host: its rtc.conf (-f), overridden by options -o.
 RtmSettings read_settings(const Machine& machine, const Program& program, const ReadConf& read_conf) {
     fs::path conf;
     RtmSettings options;
@@ -118,7 +118,7 @@ std::vector<CheckResult> check_running_programs(const Machine& machine, const Re
         }
     }
     if (results.empty())
-        results.push_back(ok("open TCP ports", "none of a host, manager or monitor of this user"));
+        results.push_back(ok("open TCP ports", "none: no host, manager or monitor of this user has one"));
     return results;
 }
 

@@ -159,7 +159,7 @@ CheckResult check_timer_slack(const Machine& machine) {
 CheckResult check_hypervisor(const Machine& machine) {
     const std::string name = "hypervisor", cpu = machine.content("/proc/cpuinfo").value_or("");
     const auto flags = cpu.find("\nflags");
-    if (flags == std::string::npos) return ok(name, "not known: /proc/cpuinfo does not tell");
+    if (flags == std::string::npos) return ok(name, "unknown: /proc/cpuinfo does not say");
     if (!contains_word(cpu.substr(flags, cpu.find('\n', flags + 1) - flags), "hypervisor"))
         return ok(name, "none detected");
     std::string which = machine.first_line("/sys/class/dmi/id/sys_vendor").value_or("");

@@ -21,7 +21,7 @@ class IdlTypes {
     /// Returns the IDL type of a C++ type: `::ArmTypes::DoubleSeq` for `std::vector<double>`. Throws std::runtime_error
     /// with one line if the type is unknown.
     std::string idl_type(const std::string& cxx_type);
-    /// Returns the IDL name of an exception. Throws as idl_type().
+    /// Returns the IDL name of an exception. Throws like idl_type().
     std::string exception(const std::string& name);
     /// Returns the modules with all declarations so far; empty if there are none.
     std::string declarations() const;

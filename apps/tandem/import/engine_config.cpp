@@ -32,7 +32,7 @@ void tell_differences(const XmlFile& xml, const pugi::xml_node& root, ImportRepo
             report.add_difference(xml.location(prop).text(), name + " " + value, here);
         };
         if (name == "sys.console" && is_on(value))
-            differs("there is no console: Ctrl-C ends the application, tandem top shows it");
+            differs("there is no console: Ctrl-C ends the application, and tandem top shows it");
         if (name == "log.dir") differs("the log goes to standard error; as a service, to the journal");
     }
     for (const auto& io : root.child("io_manager").children("io"))

@@ -7,7 +7,7 @@
 namespace tandem::mcap {
 
 /// Passes the written data of a file to the disk, at most once a second. A thread does so, because a slow disk would
-/// keep a recorder from its work.
+/// delay the recorder.
 class DiskSync {
   public:
     /// The descriptor must outlive this object. Without a free thread, requests do nothing.
@@ -19,7 +19,7 @@ class DiskSync {
     /// Requests that the data written so far go to the disk. Returns at once: 0, or the errno value of the first
     /// failure. [any-thread]
     int request();
-    /// Ends the thread. Returns as request(). [one thread]
+    /// Ends the thread. Returns like request(). [one thread]
     int stop();
 
   private:

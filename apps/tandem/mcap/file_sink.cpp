@@ -62,7 +62,7 @@ bool FileSink::truncate(std::uint64_t size) {
 void FileSink::close() {
     flush();
     if (disk_) {
-        // Releases what reserve() has allocated behind the end.
+        // Releases what reserve() has allocated after the end.
         if (ftruncate(file_.descriptor(), static_cast<off_t>(size_)) != 0) fail(errno);
         int error = disk_->stop();
         if (error == 0) error = sync_to_disk(file_.descriptor());

@@ -18,7 +18,7 @@ class Sink {
     virtual ~Sink() = default;
     /// Appends the bytes. Throws Error if they cannot be written.
     virtual void write(ByteView bytes) = 0;
-    /// Ensures that a death of the process does not lose the bytes written so far. Throws Error.
+    /// Ensures that the bytes written so far survive the death of the process. Throws Error.
     virtual void flush() = 0;
     /// Ensures that the next `size` bytes find room. Throws Error if it is known that they do not.
     virtual void reserve(std::uint64_t) {}
@@ -39,8 +39,8 @@ class FileSink : public Sink {
     /// Considers the file system and the limit of the process (`ulimit -f`).
     void reserve(std::uint64_t size) override;
     bool truncate(std::uint64_t size) override;
-    /// Flushes and closes the file when it is on the disk. Throws Error, also for errors that the file system reports
-    /// only then.
+    /// Flushes the file, waits until it is on the disk, and closes it. Throws Error, including for errors that the file
+    /// system reports only then.
     void close();
     /// Removes the file.
     void discard();

@@ -14,7 +14,7 @@ class NewFile {
     /// When the file gets its name. Until then it is FOLDER/tandem-PID-N.part.
     enum class Named {
         at_once,      ///< for a recording: if the recorder is killed, the user finds the data
-        when_complete ///< for a file that can be made again: an incomplete one never has the name
+        when_complete ///< for a file that can be recreated: an incomplete one never has the name
     };
     /// Throws Error if the name is taken by a file that is not empty or that another program is writing.
     NewFile(std::filesystem::path path, Named named);
@@ -24,7 +24,7 @@ class NewFile {
 
     int descriptor() const { return descriptor_; }
     bool is_regular() const { return regular_; } ///< not a device or pipe
-    /// Gives the file its name and closes it. Throws Error, also if the name has been taken meanwhile.
+    /// Gives the file its name and closes it. Throws Error, for example if another file has taken the name.
     void close();
     /// Closes the file and removes it. An empty file that existed before becomes empty again.
     void discard();

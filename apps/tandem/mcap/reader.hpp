@@ -16,7 +16,7 @@ class McapReader {
     std::uint64_t file_size() const { return file_.size(); }
     /// The reader must outlive the cursor.
     MessageCursor messages(Query query = {}) { return {file_, contents_, std::move(query)}; }
-    /// Returns the data of an entry in `contents().attachments`. Throws Error, also if the CRC-32 does not match.
+    /// Returns the data of an entry in `contents().attachments`. Throws Error, for example if the CRC-32 does not match.
     Bytes attachment_data(const AttachmentIndex& index);
     /// Returns an entry of `contents().metadata`. Throws Error.
     Metadata metadata(const MetadataIndex& index);

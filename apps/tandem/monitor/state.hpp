@@ -155,7 +155,7 @@ struct HostPort {
     std::string kind;      ///< data, event, service
     std::string direction; ///< input, output, provided, required
     std::string type;
-    std::vector<std::string> connections{}; ///< ids, which connected ports have in common, also of two hosts
+    std::vector<std::string> connections{}; ///< ids, which connected ports have in common, even in two hosts
 };
 
 struct HostInventory {

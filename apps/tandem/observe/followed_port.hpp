@@ -31,7 +31,7 @@ void append_message(const FollowedPort& port, std::span<const std::byte> bytes, 
 /// because their ports cannot be decoded.
 std::vector<FollowedPort> find_ports(const shm::Observation& observation);
 
-/// The names of all ports of a link, of services, too.
+/// The names of all ports of a link, including service ports.
 struct PortNames {
     std::set<std::string> names{};
     int tables = 0; ///< number of sides whose port table is there

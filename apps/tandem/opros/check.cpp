@@ -220,7 +220,7 @@ class Findings {
         notes.insert(notes.end(), lines.begin(), lines.end());
     }
     std::vector<std::string> lines; ///< errors: with them, the application does not do what the profiles say
-    std::vector<std::string> notes; ///< findings with which the application runs all the same
+    std::vector<std::string> notes; ///< findings that do not keep the application from running
     /// Lines about components whose ports are currently unknown.
     std::vector<std::string> unknown;
     std::set<std::string> unknown_components;
@@ -309,7 +309,7 @@ std::string count_text(std::size_t count, const char* what) {
     return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
-// Ends the text with a summary, also if there are no errors.
+// Ends the text with a summary, even if there are no errors.
 void print_report(const ApplicationReport& report, bool as_json) {
     if (as_json) {
         print_json({{"application", report.name},

@@ -8,7 +8,7 @@
 
 namespace tandem::command {
 
-/// Returns the first part in which two profiles differ, as a message names it; "" if one is a copy of the other.
+/// Returns the name of the first part in which two profiles differ, for messages; "" if they are copies.
 std::string find_difference(const engine::ComponentProfile& one, const engine::ComponentProfile& other);
 
 /// Returns the component profile in a component's folder or where OPRoS's tools put it. `profile` selects one of

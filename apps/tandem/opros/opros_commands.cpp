@@ -49,7 +49,7 @@ void add_info_and_check(CLI::App& opros, Action& selected) {
     CLI::App* check = add_command(
         opros, "check", "Checks an application: libraries, ports, types of connected ports",
         "Prints each error on one line: file, line, what is wrong, what was expected. Lines that begin\n"
-        "with 'note:' are differences with which the application runs all the same.\n"
+        "with 'note:' show differences that do not keep the application from running.\n"
         "Exit code 1 if there is an error.");
     add_inspect_options(check, *options, "application profile (XML)");
     check

@@ -7,7 +7,7 @@
 namespace tandem::command {
 
 /// Replaces the file's content as process::write_output() does. Throws std::runtime_error with the file and the cause,
-/// also for a full disk.
+/// for example for a full disk.
 void write_file(const std::filesystem::path& file, const std::string& text);
 
 /// Writes text for people to standard output, with '?' for control characters except newlines and tabs. Throws as
@@ -19,7 +19,7 @@ void print_text(const std::string& text);
 void print_data(const std::string& text);
 
 /// Prints JSON, indented by two spaces or on one line. Replaces invalid UTF-8 by U+FFFD, and escapes control
-/// characters. Throws as print_data().
+/// characters. Throws like print_data().
 void print_json(const nlohmann::json& value, bool one_line = false);
 
 } // namespace tandem::command

@@ -119,7 +119,7 @@ double record_messages(const RecordOptions& options, mcap::McapWriter& writer, R
     return seconds(shm::now_ns());
 }
 
-/// Records to the file, also if it becomes full. Returns the time in s.
+/// Records to the file, even if it becomes full. Returns the time in s.
 double record_to(RecordingOutput& output, const RecordOptions& options, Recorder& recorder,
                  AwaitedPorts& awaited) {
     try {

@@ -46,9 +46,10 @@ std::int64_t RecordingClock::take_step() {
 
 void ClockChannel::write_start() {
     if (std::exchange(started_, true)) return;
-    writer_.add_metadata("tandem.clock", {{"log_time", "wall_ns + CLOCK_MONOTONIC - monotonic_ns"},
-                                          {"wall_ns", std::to_string(clock_.start().wall_ns)},
-                                          {"monotonic_ns", std::to_string(clock_.start().monotonic_ns)}});
+    writer_.add_metadata("tandem.clock",
+                         {{"log_time", "wall_ns + CLOCK_MONOTONIC - monotonic_ns"},
+                          {"wall_ns", std::to_string(clock_.reading_at_start().wall_ns)},
+                          {"monotonic_ns", std::to_string(clock_.reading_at_start().monotonic_ns)}});
 }
 
 void ClockChannel::write_step() {

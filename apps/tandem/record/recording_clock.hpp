@@ -21,12 +21,12 @@ class RecordingClock {
     using Read = std::function<ClockReading()>;
     explicit RecordingClock(Read read = read_clocks) : read_(std::move(read)), start_(read_()) {}
 
-    /// Returns the log time of a value of CLOCK_MONOTONIC, also before the start.
+    /// Returns the log time of a value of CLOCK_MONOTONIC, which may be before the start.
     std::uint64_t time_of(std::uint64_t monotonic_ns) const {
         return start_.wall_ns + (monotonic_ns - start_.monotonic_ns);
     }
     std::uint64_t now() const;
-    const ClockReading& start() const { return start_; }
+    const ClockReading& reading_at_start() const { return start_; }
 
     /// Returns by how many ns the wall clock was set forward (back: negative) since the last call; 0 if by less than a
     /// millisecond.

@@ -14,8 +14,8 @@
 namespace tandem::command {
 
 /// One side of a link, in place of the recorded host: shares the recorded ports, sends messages on request,
-/// answers calls as recorded, and accepts the other proxy's commands. The peer treats it as any other host,
-/// also when it ends. [one thread, except where noted]
+/// answers calls as recorded, and accepts the other proxy's commands. The peer treats it like any other host,
+/// even when it ends. [one thread, except where noted]
 class ReplayPeer final : private link::LinkHandler {
   public:
     /// `name`: current name of the link. `check` may be null. All references must outlive this object.
@@ -23,8 +23,8 @@ class ReplayPeer final : private link::LinkHandler {
                Comparison* check);
     ~ReplayPeer() override { close(); }
 
-    /// Joins the link; the peer may join later. Throws shm::Error with one line, also if another process
-    /// has this side.
+    /// Joins the link; the peer may join later. Throws shm::Error with one line, for example if another
+    /// process has this side.
     void open();
     /// Waits until the peer has joined, its ports have the recorded types, and the components of both sides
     /// are active. Throws std::runtime_error with one line.

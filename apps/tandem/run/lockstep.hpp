@@ -36,8 +36,8 @@ class HostSteps {
 
     /// Returns the path of the socket for a host to listen on.
     std::string socket(const std::string& host) const { return (folder_ / host).string(); }
-    /// Runs one cycle. Throws std::runtime_error if the host does not listen, or with its message if the
-    /// cycle fails.
+    /// Runs one cycle. Throws std::runtime_error if the host does not listen, or if the cycle fails (with
+    /// the host's message).
     void step(const std::string& host, const std::string& component);
 
   private:
@@ -56,7 +56,7 @@ class Lockstep {
     std::string socket(const std::string& host) const { return hosts_.socket(host); }
     /// Called after each cycle with the number of the tick, starting at 0.
     using AfterStep = std::function<void(std::uint64_t tick, const SteppedComponent&)>;
-    /// Throws std::runtime_error if a host does not listen, or with its message if a cycle fails.
+    /// Throws std::runtime_error if a host does not listen, or if a cycle fails (with the host's message).
     void run_tick(const AfterStep& after_step = {});
     std::chrono::nanoseconds tick() const { return tick_; }
     std::uint64_t ticks() const { return ticks_; }

@@ -24,7 +24,7 @@ class LinkPortFinder {
     /// std::runtime_error if the shared data are damaged or the rtc.conf cannot be applied.
     std::optional<LinkPorts> find(const std::string& link);
     const std::filesystem::path& conf() const { return conf_; }
-    /// Returns the links in the rtc.conf with the instance name of the RTC behind each. Throws as find().
+    /// Returns the links in the rtc.conf with the instance name of the RTC behind each. Throws like find().
     std::map<std::string, std::string> configured_links();
 
   private:

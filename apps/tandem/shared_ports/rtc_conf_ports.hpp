@@ -31,7 +31,7 @@ struct RtcInstance {
     std::string name;
     std::chrono::nanoseconds period; ///< of its own execution context; 0: none
 };
-/// Returns the RTCs in their order of creation. Throws as probe_rtc_conf().
+/// Returns the RTCs in their order of creation. Throws like probe_rtc_conf().
 std::vector<RtcInstance> probe_rtc_instances(const std::filesystem::path& conf,
                                              const RtcConfOptions& options);
 

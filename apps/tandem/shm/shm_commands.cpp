@@ -15,7 +15,7 @@ struct CommandHelp {
 };
 
 constexpr CommandHelp shm_help{
-    "Inspects segments of shared memory, also while their hosts run, and removes stale ones",
+    "Inspects segments of shared memory, even while their hosts run, and removes stale ones",
     "A segment is the file in /dev/shm through which the two hosts of a link communicate. list, info and\n"
     "stats are read-only, take no lock and wake no thread. They are safe to use on a running robot."};
 constexpr CommandHelp list_help{

@@ -24,7 +24,7 @@ bool is_rtm_host(pid_t pid) {
     return name == "rtm_host";
 }
 
-/// Returns the file behind -f of a host's command line, else rtc.conf.
+/// Returns the file after -f in a host's command line, else rtc.conf.
 fs::path rtc_conf_of(pid_t pid) {
     std::ifstream command(proc(pid, "cmdline"), std::ios::binary);
     fs::path conf = "rtc.conf";
@@ -35,9 +35,9 @@ fs::path rtc_conf_of(pid_t pid) {
 
 void take(pid_t& host, pid_t found, const char* program) {
     if (host != 0)
-        throw std::runtime_error(
-            fmt::format("several hosts run, {0} {1} and {0} {2}; name one of each model with --host PID",
-                        program, host, found));
+        throw std::runtime_error(fmt::format(
+            "several hosts are running, {0} {1} and {0} {2}; name one of each model with --host PID", program,
+            host, found));
     host = found;
 }
 
@@ -62,7 +62,7 @@ RunningSystem find_running_system(const std::vector<pid_t>& pids) {
             throw std::runtime_error(fmt::format(
                 "--host {}: no host of this user has this process id; tandem top lists the hosts", pid));
     if (system.rtm == 0 && system.opros == 0)
-        throw std::runtime_error("no host of this user runs; start one with tandem run DIR");
+        throw std::runtime_error("no host of this user is running; start one with tandem run DIR");
     return system;
 }
 

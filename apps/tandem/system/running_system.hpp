@@ -22,7 +22,7 @@ RunningSystem find_running_system(const std::vector<pid_t>& pids);
 /// each thing that it leaves out.
 std::vector<std::string> save_rtm(const RunningSystem& system, const std::filesystem::path& output);
 
-/// Writes the application into DIR/opros with the properties of the running components. Returns lines as save_rtm().
+/// Writes the application into DIR/opros with the properties of the running components. Returns lines like save_rtm().
 std::vector<std::string> save_opros(const RunningSystem& system, const std::filesystem::path& output);
 
 } // namespace tandem::command

@@ -22,7 +22,7 @@ class StagedFolder {
     /// The new folder.
     const std::filesystem::path& path() const { return path_; }
 
-    /// Gives DIR the new sides.
+    /// Moves the new sides to DIR.
     void publish();
     /// Replaces the files of DIR that differ, each by rename, and keeps the previous ones as FILE~.
     void publish_files();

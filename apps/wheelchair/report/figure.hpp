@@ -15,7 +15,7 @@ namespace tandem::wheelchair {
 void draw_run(const std::string& path, const std::string& title, const std::vector<Row>& rows);
 
 /// Draws the paper's Fig. 14: measured steering angles of several configurations, and below them the differences from
-/// the first one. Writes `path` and a file with the same name and the other suffix. Throws as draw_run().
+/// the first one. Writes `path` and a file with the same name and the other suffix. Throws like draw_run().
 void draw_comparison(const std::string& path, const std::string& title,
                      const std::vector<std::pair<std::string, std::vector<Row>>>& runs);
 

@@ -24,7 +24,7 @@ class StepRecording {
     virtual std::string close() = 0;
 };
 
-/// Creates the file. Call this before the hosts start. Throws std::runtime_error, also if the library is missing.
+/// Creates the file. Call this before the hosts start. Throws std::runtime_error, for example if the library is missing.
 std::unique_ptr<StepRecording> open_step_recording(const std::string& file);
 
 /// The library's only function and its name.

@@ -45,7 +45,7 @@ struct TandemCvVideoWriter {
 #define cvWriteToAVI tandem_cvWriteFrame
 #define cvReleaseVideoWriter tandem_cvReleaseVideoWriter
 
-/// Returns NULL if the file or device cannot be opened, also if OpenCV throws.
+/// Returns NULL if the file or device cannot be opened, even if OpenCV throws.
 template <class Source>
 TandemCvCapture* tandem_open_capture(const Source& source) {
     TandemCvCapture* capture = new TandemCvCapture;

@@ -120,7 +120,7 @@ void Application::load(const ApplicationProfile& profile) {
             if (options_.strict || profile.subcomponents.size() == 1) throw;
             if (first_failure.empty()) first_failure = error.what();
             left_out_.push_back(entry.name);
-            log::error("{}; component {} is left out, the other components continue", error.what(),
+            log::error("{}; component {} is left out, and the other components continue", error.what(),
                        entry.name);
             process::publish_notice(process::NoticeKind::component,
                                     "component " + entry.name + " is left out: " + error.what());
@@ -207,7 +207,7 @@ void Application::start() {
     start_late();
 }
 
-/// Its onStart may have called a service of another node that is not there yet.
+/// Its onStart may have called a service of another node that is not available yet.
 bool Application::may_start_late(const ComponentHost& component) const {
     return !component.has_failed() && users_of_nodes_.count(component.name()) != 0;
 }
@@ -217,7 +217,7 @@ void Application::start_late() {
     for (const ComponentHost* component : start_order_)
         if (component->has_not_started() && may_start_late(*component)) names.push_back(component->name());
     if (names.empty()) return;
-    log::info("{} did not start, which is tried again: a service of another node may not be there yet",
+    log::info("{} did not start and will be tried again: a service of another node may not be available yet",
               fmt::join(names, ", "));
     late_start_ = std::make_shared<LateStart>(directory_, std::move(names));
 }

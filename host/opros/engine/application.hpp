@@ -60,7 +60,7 @@ class Application {
     void stop();
     /// Stops and disconnects the components and destroys them (onDestroy).
     void shut_down();
-    /// Deletes the components' instances, then unloads their libraries. Afterwards nothing of a component may be used.
+    /// Deletes the components' instances, then unloads their libraries. Afterwards no part of a component may be used.
     void unload();
 
     /// Returns the components that did not return from a callback or destructor within the grace time of stop(),

@@ -93,7 +93,7 @@ class opros_any {
     void encode(opros::archive::oarchive& ar) const {
         if (content) content->encode(ar);
     }
-    /// Reads a value of the held type in place. Throws as encode(), and the exceptions of the archive.
+    /// Reads a value of the held type in place. Throws like encode(), and the exceptions of the archive.
     void decode(opros::archive::iarchive& ar) {
         if (content) content->decode(ar);
     }

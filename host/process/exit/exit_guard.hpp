@@ -5,7 +5,7 @@ namespace tandem::process {
 
 /// Makes it safe for a component to call exit() while other components still run. First the exit handlers and static
 /// destructors of libraries run that were loaded later than this object was created. Then exit_process() ends the
-/// process with the component's code, and nothing of the host is destroyed. At most one object may exist at a time.
+/// process with the component's code, and no object of the host is destroyed. At most one object may exist at a time.
 /// [main-thread]
 class ExitGuard {
   public:

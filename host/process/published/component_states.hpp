@@ -43,7 +43,7 @@ class OwnComponentState {
 
     /// Publishes the new state. [any-thread]
     void set(ComponentState state) noexcept;
-    /// Publishes the begin of a cycle, or its end with 0. [any-thread]
+    /// Publishes the start of a cycle, or its end with 0. [any-thread]
     void set_in_cycle_since(std::int64_t ns) noexcept;
 
   private:

@@ -12,12 +12,12 @@
 namespace tandem::process {
 
 /// The head of the file; native byte order. The text follows: one line per part, of fields between tabs. Spaces at the end
-/// of a line and empty lines mean nothing. The parts, in any order:
+/// of a line and empty lines are ignored. The parts, in any order:
 ///     component  NAME TYPE EXECUTION PERIOD_NS NAME_IN_NAME_SERVER...
 ///     context    OWNER KIND PERIOD_NS RUNNING(0|1) COMPONENT...
 ///     port       COMPONENT NAME KIND(data|event|service) DIRECTION(input|output|provided|required) TYPE CONNECTION_ID...
 ///     connection FROM_COMPONENT FROM_PORT TO_COMPONENT TO_PORT
-/// Connected ports have a CONNECTION_ID in common, also ports of two processes. A composite is the owner of the context that
+/// Connected ports have a CONNECTION_ID in common, even ports of two processes. A composite is the owner of the context that
 /// its members share.
 struct InventoryHead {
     static constexpr char magic_text[8] = {'T', 'A', 'N', 'D', 'I', 'N', 'V', '1'};

@@ -10,7 +10,7 @@ class SimulatedJoint {
     /// Only stores the power, which moves nothing here.
     void set_power(double power) { power_ = power; }
     void set_velocity(double velocity);
-    /// Reaches the position after this time; 0: at once.
+    /// Moves to the position within this time; 0: at once. Units: those of the device class.
     void set_position(double position, unsigned long milliseconds);
     void stop();
     /// Advances the motion by this time.

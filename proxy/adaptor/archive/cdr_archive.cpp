@@ -66,7 +66,7 @@ void get_all(wire::CdrReader& in, T* p, long size) {
     }
 }
 
-/// Numbers of which every bit pattern is valid are copied as one block. All others are checked one by one.
+/// Copies numbers as one block if every bit pattern is valid. All others are checked one by one.
 template <class T>
 void get_sequence(wire::CdrReader& in, std::vector<T>& values) {
     if constexpr (std::is_same_v<T, bool> || std::is_same_v<T, wchar_t>) {

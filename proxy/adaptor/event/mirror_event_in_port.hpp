@@ -14,8 +14,8 @@ class MirrorEventInPort final : public MirrorEventPortBase {
     /// `peer` is the port's entry in the peer's table. The channel must outlive this port.
     using MirrorEventPortBase::MirrorEventPortBase;
 
-    /// Returns OPROS_OUT_OF_RESOURCES without room, and OPROS_BAD_INPUT_PARAMETER if this event cannot be
-    /// encoded. An event without content has the default value of its type.
+    /// Returns OPROS_OUT_OF_RESOURCES if there is no room, and OPROS_BAD_INPUT_PARAMETER if this event cannot
+    /// be encoded. An event without content has the default value of its type.
     ReturnType push(Event* event) override;
     using MirrorEventPortBase::push;
 

@@ -23,8 +23,8 @@ struct MethodTypes {
     std::string operation_signature() const;
 };
 
-/// `expected`: the operation that the method stands for, if known; its unions are searched for. Throws wire::SignatureError,
-/// one line, if an argument or the result cannot cross a link.
+/// Returns the types of the method. `expected`: the operation that it stands for, if known; needed to recognize unions.
+/// Throws wire::SignatureError, one line, if an argument or the result cannot cross a link.
 MethodTypes describe_method(Method& method, const wire::Operation* expected = nullptr);
 
 /// The direction of each argument of a method that is called as an operation.

@@ -112,7 +112,7 @@ ReturnType MirrorProvidedPort::callEncoded(Method& required, const CallValue* ar
                  : OPROS_UNSUPPORTED_METHOD;
 }
 
-/// The arguments are encoded behind the head of the request, on the stack if they are short.
+/// The arguments are encoded after the head of the request, on the stack if they are short.
 link::ReplyView MirrorProvidedPort::make_call(const Binding& binding, std::span<const CallValue> arguments,
                                               wire::MessageBuffer& memory) {
     wire::MessageBuffer buffer;

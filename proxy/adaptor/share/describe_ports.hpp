@@ -11,10 +11,10 @@
 
 namespace tandem::adaptor {
 
-/// Appends the ports of a component that can cross, under the names COMPONENT.PORT: data ports, event ports as data ports
-/// of an id and the content, service ports. `interfaces` are IDL names by COMPONENT.PORT: `Module::Interface`, optionally
-/// with `.instance`, for a service port, and `Module::Structure` for a data or event port. Leaves out required service
-/// ports that the application connects. Returns a line for each port and method that cannot cross.
+/// Appends the ports of a component that can cross to `table`, under the names COMPONENT.PORT. An event port becomes a data
+/// port whose messages contain the id and the content. `interfaces` maps COMPONENT.PORT to IDL names: `Module::Interface`,
+/// optionally with `.instance`, for a service port, and `Module::Structure` for a data or event port. Returns a line for each
+/// port and method that is left out: it cannot cross, or the application connects the required service port.
 std::vector<std::string> describe_ports(const std::string& component_name, ComponentDirectory& directory,
                                         const std::map<std::string, std::string>& interfaces,
                                         link::PortTable& table);

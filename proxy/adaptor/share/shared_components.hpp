@@ -36,7 +36,7 @@ class SharedComponents {
     /// Connects ports that the components have added since. Returns the new table with added and without removed ports;
     /// nothing if it is unchanged. [task-thread]
     std::optional<link::PortTable> follow_ports();
-    /// Disconnects everything: on return nothing of the components is in use. Call it before the components and the link
+    /// Disconnects everything: on return the components are no longer in use. Call it before the components and the link
     /// are destroyed. [main-thread]
     void disconnect();
 

@@ -8,7 +8,7 @@ list(APPEND sources ${adaptor}/archive/device_conversions.cpp ${adaptor}/archive
   ${adaptor}/event/event_type.cpp ${adaptor}/event/mirror_event_in_port.cpp ${adaptor}/event/mirror_fsm_port.cpp
   ${adaptor}/service/call_failure.cpp)
 
-# A user's header of types is his own code: it is compiled by itself, so that it meets nothing of the other files.
+# A user's header of types is his own code: it is compiled by itself, so that it does not clash with the other files.
 if(TANDEM_OPROS_TYPES)
   set_source_files_properties(${adaptor}/typed/added_types.cpp PROPERTIES
     COMPILE_DEFINITIONS "TANDEM_OPROS_TYPES=\"${TANDEM_OPROS_TYPES}\"" OBJECT_DEPENDS ${TANDEM_OPROS_TYPES})

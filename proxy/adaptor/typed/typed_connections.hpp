@@ -32,7 +32,8 @@ class TypedConnections {
     bool listens() const { return listens_; }
     void set_type(const ValueType* type) { type_ = type; }
 
-    /// Call it also after a target was checked: engines add a connection before or after that.
+    /// Sets the listener if there are connections of a known type. Engines check a target before or after they add it: call
+    /// this after the check. add() calls it as well.
     void listen_if_connected() {
         {
             const std::lock_guard lock(mutex_);

@@ -22,8 +22,8 @@ class TypedInPort final : public InputDataPortInterface {
     /// port.
     TypedInPort(link::Port peer, link::ChannelWriter& channel, std::string convert = "");
 
-    /// Returns OPROS_OUT_OF_RESOURCES without room, and OPROS_BAD_INPUT_PARAMETER if this value cannot
-    /// cross, which counts as a dropped message.
+    /// Returns OPROS_OUT_OF_RESOURCES if there is no room, and OPROS_BAD_INPUT_PARAMETER if this value
+    /// cannot cross, which counts as a dropped message.
     ReturnType push(opros_any& value) override;
     ReturnType push(opros::archive::iarchive&) override { return OPROS_UNSUPPORTED_METHOD; }
     ReturnType pushData(unsigned char*, int) override { return OPROS_UNSUPPORTED_METHOD; }

@@ -26,7 +26,7 @@ class CallTarget {
     virtual void unknown_operation(const char*) {}
     /// Writes what must precede the arguments of a call, a multiple of 8 bytes. Writes nothing by default.
     virtual void put_head(const wire::Operation&, wire::CdrWriter&) {}
-    /// Executes an operation. The head, the arguments behind it, and the results are in CDR, the results in `memory`.
+    /// Executes an operation. The head, the arguments after it, and the results are in CDR, the results in `memory`.
     /// Throws failures: CORBA system exceptions, or a GenericUserException that the operation declares.
     virtual std::span<const std::byte> call(const char* name, const wire::Operation&,
                                             std::span<const std::byte> request,

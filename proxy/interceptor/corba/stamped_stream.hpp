@@ -25,7 +25,7 @@ class StampedStream : public cdrStream {
   protected:
     StampedStream();
     [[noreturn]] static void throw_marshal();
-    /// Begins a message. Returns its begin and end, or those of its first part.
+    /// Begins a message. Returns its start and end, or those of its first part.
     std::pair<void*, void*> open(std::span<std::byte> body, bool timed, std::byte* front);
 
     void put_octet_array(const _CORBA_Octet*, int, omni::alignment_t) override { throw_marshal(); }
@@ -43,7 +43,7 @@ class StampedStream : public cdrStream {
     }
     _CORBA_Boolean maybeReserveOutputSpace(omni::alignment_t, std::size_t) override { throw_marshal(); }
 
-    /// Returns the place of the next `bytes` bytes at this alignment, and moves `cursor` behind them. When the time is used
+    /// Returns the place of the next `bytes` bytes at this alignment, and moves `cursor` past them. When the time is used
     /// up, `cursor` and `end` move to the body.
     std::byte* align_and_advance(void*& cursor, void*& end, std::size_t bytes, omni::alignment_t alignment) {
         if (in_time_ && cursor == end) [[unlikely]]

@@ -65,7 +65,7 @@ CORBA::TypeCode_ptr create_structure(const Type& type) {
 /// wrote it, and the ORB compares each one with all others.
 constexpr std::size_t max_members = 4096;
 
-/// Returns the enumerators behind the id; none if they are not there, or too many.
+/// Returns the enumerators after the id; none if they are not there, or too many.
 std::vector<std::string> enumerators(const Type& type) {
     std::vector<std::string> names;
     const std::string words = type.ids.empty() ? "" : type.ids.back();

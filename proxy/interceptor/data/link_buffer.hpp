@@ -28,7 +28,7 @@ struct LinkChannel {
     /// fixed.
     std::shared_ptr<const wire::Type> transcoded{};
 };
-/// Returns a channel for messages of this type, without its ends.
+/// Returns a channel for messages of this type. The caller sets `writer` or `reader`.
 LinkChannel make_link_channel(const wire::Type& message);
 
 /// The buffer of a connector between the RTC's port and its mirror. The RTC writes to the ring of the link and reads from

@@ -19,7 +19,7 @@ constexpr std::size_t shortest_long_message = std::size_t{64} * 1024;
 BufferStatus LinkBuffer::writeInPlace(const RTC::Marshal& marshal) {
     if (!channel_.writer) return BufferStatus::PRECONDITION_NOT_MET;
     const auto& numbers = marshal.numbers();
-    if (numbers.tm) { // then the channel is timed, and it is what marshalling would write behind the time
+    if (numbers.tm) { // then the channel is timed, and it is what marshalling would write after the time
         std::uint32_t time[2];
         std::memcpy(time, numbers.tm, sizeof time);
         const auto sent =

@@ -17,8 +17,8 @@ class DrivenRtc {
     /// Does nothing if the RTC is not in ERROR.
     virtual std::string reset() = 0;
     virtual bool is_active() const = 0;
-    /// Sets the thread that calls the functions above from now on, for work that must wait for them. It is stopped before
-    /// this object is destroyed.
+    /// Sets the queue whose thread calls the functions above from now on. This object may post work there that must run
+    /// after them. The thread ends before this object is destroyed.
     virtual void set_thread(link::TaskQueue&) {}
 };
 

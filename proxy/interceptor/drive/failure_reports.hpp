@@ -23,7 +23,7 @@ class FailureReports {
     /// Sends "RTC '...' `what`" in the task thread: the report waits for the peer, and so must not run in the thread of the
     /// RTC's execution context. [any-thread]
     void add(const std::string& rtc, const std::string& what);
-    /// Forgets what send() has not sent of this RTC, because it is active again. [any-thread]
+    /// Drops the unsent reports about this RTC, because it is active again. [any-thread]
     void withdraw(const std::string& rtc);
     /// Sends the reports that no peer has got yet. [task-thread]
     void send();

@@ -31,7 +31,7 @@ std::string RtcActivation::deactivate() {
 void RtcActivation::peer_lost() {
     // An RTC that another client has activated keeps running: it does not depend on the link.
     if (!activated_by_link_.exchange(false)) return;
-    // Does not wait: a slow RTC must not delay the next peer, whose activation is queued behind this deactivation.
+    // Does not wait: a slow RTC must not delay the next peer, whose activation is queued after this deactivation.
     rtcs_.begin_deactivation([name = std::string(owner_.getInstanceName())](const std::string& error) {
         log::error("{}: {}", name, error);
     });

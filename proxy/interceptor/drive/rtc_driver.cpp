@@ -102,7 +102,7 @@ void RtcDriver::on_activated() {
     });
 }
 
-/// As above. The transition may be one to ERROR.
+/// Like on_activated(). The transition may be one to ERROR.
 void RtcDriver::on_deactivated() {
     const std::lock_guard lock(late_mutex_);
     ++deactivations_ended_;

@@ -21,12 +21,12 @@ class RtcDriver final : public DrivenRtc {
   public:
     /// Must not wait.
     struct Events {
-        /// Gets "went to ERROR", "has exited", or the reason why the RTC could not be activated later. In the thread of the
-        /// event, as `activated`.
+        /// Gets "went to ERROR", "has exited", or the reason why a later activation failed. Called in the thread of the
+        /// event, like `activated`.
         std::function<void(const std::string& what)> failed;
         /// The RTC's onActivated has succeeded, on any caller's request.
         std::function<void()> activated;
-        /// The RTC is active since then. In another thread, as `deactivated_by_other`.
+        /// After `activated`: the RTC's state is ACTIVE. Called in another thread, like `deactivated_by_other`.
         std::function<void()> active;
         /// The RTC is inactive, and this driver has not deactivated it.
         std::function<void()> deactivated_by_other;

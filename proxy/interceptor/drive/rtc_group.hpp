@@ -35,7 +35,7 @@ class RtcGroup {
     /// Resets the RTCs that are in ERROR.
     std::string reset();
     bool are_all_active() const;
-    /// Ends the threads of the RTCs: their events, and transitions that have not begun, do not come any more.
+    /// Ends the threads of the RTCs. No event occurs afterwards, and transitions that have not begun do not run.
     void stop();
 
   private:

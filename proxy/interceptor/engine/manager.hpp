@@ -23,12 +23,12 @@ void wait_until_removed(RTC::Manager& manager, const std::string& name);
 bool is_terminating();
 void watch_termination(RTC::Manager& manager);
 
-/// Returns the components with this name, here or elsewhere. If there are none, `reason` is one line. With extensions of
-/// the engine each call to another process ends within `timeout_ms`, without them within the ORB's time limit.
+/// Returns the components with this name, in this process or another. If there are none, sets `reason` to one line. Each
+/// call to another process ends within `timeout_ms`, or, if the engine has no extensions, within the ORB's time limit.
 RTC::RTCList find_by_name(RTC::Manager& manager, const std::string& name, std::string& reason,
                           CORBA::ULong timeout_ms);
 
-/// Returns whether the servant, an InPort, has listeners that need each message on arrival, or must be given it then.
+/// Returns whether the InPort must get each message on arrival: it has listeners, or the engine shows none of them.
 bool wants_arrivals(RTC::InPortBase& port);
 
 } // namespace tandem::interceptor::engine

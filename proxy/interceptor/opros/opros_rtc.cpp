@@ -196,7 +196,7 @@ bool OprosRtc::command(std::string_view command, std::chrono::milliseconds timeo
         error = fmt::format("no reply within {} ms; InterceptorComp's parameter 'call_timeout' allows more",
                             bound.count());
     } else if (link::peer_has_gone(reply.status)) {
-        error = "the OPRoS host is not there";
+        error = "the OPRoS host is not running";
     }
     log::error("{}: cannot {} the OPRoS component: {}", getInstanceName(), command, error);
     return false;

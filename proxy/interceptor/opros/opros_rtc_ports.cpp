@@ -67,7 +67,7 @@ void OprosRtc::hide_ports_but(const std::vector<link::Port>& ports) {
         if (!each.shown || std::any_of(ports.begin(), ports.end(), is_it)) continue;
         removePort(*each.port); // ends its connections
         each.shown = false;
-        log::warn("{}: port '{}' of the OPRoS component, {} '{}', was removed and is shown no longer",
+        log::warn("{}: port '{}' of the OPRoS component, {} '{}', was removed and is no longer shown",
                   getInstanceName(), each.source.name, each.source.type, each.source.signature);
     }
 }
@@ -87,7 +87,7 @@ bool OprosRtc::add_port(const link::Port& port) {
     return true;
 }
 
-// The operations are those of the IDL, where it is known: the component's methods say nothing of out arguments and
+// The operations are those of the IDL, where it is known: the component's methods say nothing about out arguments and
 // exceptions.
 void OprosRtc::add_required_port(const link::Port& port, const std::string& name) {
     link::Port required = port;

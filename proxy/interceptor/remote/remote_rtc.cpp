@@ -85,7 +85,7 @@ RemoteRtc::RemoteRtc(RTC::Manager& manager, std::string owner, std::string name,
 
 /// The caller holds mutex_, or is the constructor.
 void RemoteRtc::publish_absence() {
-    missing_.emplace(process::NoticeKind::component, owner_ + ": RTC " + name_ + " is not there");
+    missing_.emplace(process::NoticeKind::component, owner_ + ": RTC " + name_ + " is not available");
 }
 
 RemoteRtc::~RemoteRtc() {
@@ -177,7 +177,7 @@ void RemoteRtc::look() {
     const std::string reason = search();
     if (!reason.empty()) return say_once(reason);
     last_line_.clear();
-    log::info("{}: RTC {} is there", owner_, name_);
+    log::info("{}: RTC {} is available", owner_, name_);
     try {
         events_.ports_changed(current()->ports);
     } catch (...) {
@@ -231,7 +231,7 @@ void RemoteRtc::report_deactivation() {
 }
 
 void RemoteRtc::lose(const char* why) {
-    log::warn("{}: RTC {} {}; it is looked for until it is back", owner_, name_, why);
+    log::warn("{}: RTC {} {}; the search continues until it is back", owner_, name_, why);
     {
         const std::lock_guard lock(mutex_);
         found_.reset();
@@ -299,7 +299,7 @@ std::string RemoteRtc::activate() {
     const auto rtc = current();
     std::string error = rtc ? rtc->transitions.activate() : "";
     if (has_gone(rtc)) {
-        log::warn("{}: RTC {} is not there; it is activated when it comes", owner_, name_);
+        log::warn("{}: RTC {} is not available; it will be activated when it appears", owner_, name_);
         return "";
     }
     const std::lock_guard lock(mutex_);

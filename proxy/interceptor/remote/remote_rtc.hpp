@@ -47,14 +47,14 @@ class RemoteRtc final : public DrivenRtc {
     RemoteRtc(const RemoteRtc&) = delete;
     RemoteRtc& operator=(const RemoteRtc&) = delete;
 
-    /// Looks for the RTC once. Returns its ports; none, and `reason` in one line, if it is not there. [before watch()]
+    /// Looks for the RTC once. Returns its ports; none, and `reason` in one line, if it was not found. [before watch()]
     RTC::PortServiceList find(std::string& reason);
     /// Starts the thread that looks for the RTC and watches it.
     void watch();
     /// Call it when the RTC's ports are connected: from now on it may be activated, if the link wants that.
     void resume();
 
-    /// Returns ok for an RTC that is not there: it is activated when it comes.
+    /// Returns ok for an RTC that is not available: it is activated when it appears.
     std::string activate() override;
     std::string deactivate() override;
     std::string reset() override;

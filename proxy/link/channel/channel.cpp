@@ -155,7 +155,8 @@ bool ChannelWriter::report_refusal(std::size_t bytes) {
                        "one; raise large_kib to {} or more",
                        port_, bytes, limit, (bytes + 1023) / 1024);
     } else if (!bound_->ring.corrupt() && no_memory_.should_log()) {
-        log::error("port '{}': a message of {} bytes finds no memory in {} and is dropped, {} so far; {} "
+        log::error("port '{}': a message of {} bytes does not fit into the free memory of {} and is dropped, "
+                   "{} so far; {} "
                    "bytes are available: free some or enlarge it",
                    port_, bytes, shm::shm_directory, no_memory_.count(), shm::available_bytes().value_or(0));
     }

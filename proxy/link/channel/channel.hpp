@@ -56,8 +56,8 @@ class ChannelWriter {
         return !rt::rehearsing() && encode_in_chunk(writer.size(), stamp, encode);
     }
 
-    /// Publishes like write(), for a slow `encode`. If a message is too long for the ring, expects the length of the
-    /// last one, `bytes`; encodes twice only if the length differs. Sets `bytes` to the message's length.
+    /// Like write(), but encodes a message that is too long for the ring only once if it is as long as the last one,
+    /// `bytes`. Sets `bytes` to the message's length. For an `encode` that takes long.
     template <class Encode>
     bool write_expecting(std::size_t& bytes, const std::uint64_t& stamp, Encode&& encode) {
         if (bytes > longest_record()) {
@@ -246,8 +246,8 @@ class ChannelReader {
         return read_kept_locked();
     }
 
-    /// Returns the last message, of any length, again, for a port whose empty queue repeats its last message. The
-    /// message outlives the peer.
+    /// Returns the last message again, even a long one, for a port that repeats its last message while its queue is
+    /// empty. The message outlives the peer. Requires the lock.
     const shm::Record* again_locked() const {
         const shm::Record* const last = bound_ ? bound_->ring.again() : nullptr;
         return last || !handed_out_ ? last : &handed_out_->record;

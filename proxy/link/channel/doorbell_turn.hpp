@@ -9,8 +9,8 @@
 namespace tandem::link {
 
 /// Decides which thread waits on this side's doorbell, which has only one owner: the notifier, unless all messages
-/// are for one consumer whose thread waits itself. This consumer keeps the turn while it works, and the notifier
-/// sleeps.
+/// are for one consumer whose own thread waits. This consumer keeps the turn while it works, and the notifier sleeps.
+/// A `const void* consumer` only identifies a consumer.
 class DoorbellTurn {
   public:
     enum class Result { begun, refused, woken };
@@ -30,7 +30,7 @@ class DoorbellTurn {
 
     /// Gives the turn back to the notifier. [the consumer's thread]
     void give_up(const void* consumer);
-    /// Ends the consumer's current wait, or the next one. [any-thread]
+    /// Ends this consumer's current wait, and makes the next begin() of a consumer return woken. [any-thread]
     void wake(const void* consumer);
     /// Gives the turn to no consumer from now on, and makes await() return. [any-thread]
     void stop();

@@ -23,7 +23,7 @@ constexpr std::chrono::nanoseconds worker_idle_time = std::chrono::seconds(60);
 constexpr std::size_t max_call_bytes = std::size_t{64} << 20;
 /// Calls without a reply (oneway, non-blocking) that wait to be made. Further callers wait like those above.
 constexpr std::size_t max_waiting_sends = 256;
-/// Arguments of these calls together. A longer one still waits if no other does.
+/// Total size of the arguments of these calls. A longer call may wait if no other does.
 constexpr std::size_t max_waiting_send_bytes = max_call_bytes;
 
 } // namespace tandem::link

@@ -79,13 +79,13 @@ struct SharedComponent {
 struct PortTable {
     std::vector<SharedComponent> components;
     std::vector<Port> ports; ///< of all components; each name occurs once
-    /// The component model of the side, for messages: `OPRoS`, `RTM`. Empty if the side has none, or if the table is older
+    /// The component model of the side, for log messages: `OPRoS`, `RTM`. Empty if the side has none, or if the table is older
     /// than this field. A proxy sets it (proxy/adaptor/model.hpp, proxy/interceptor/model.hpp).
     std::string model{};
     bool operator==(const PortTable&) const = default;
 
     const Port* find(std::string_view name) const; ///< Returns nullptr if there is no port of this name.
-    std::string component_names() const;           ///< for messages: `A, B`
+    std::string component_names() const;           ///< for log messages: `A, B`
 };
 
 /// Encodes in CDR. Components: count; for each: name, type, number of properties, and the name and value of each

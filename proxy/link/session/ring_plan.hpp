@@ -31,8 +31,8 @@ struct RingPlan {
     std::size_t chunk_bytes = 0;  ///< shared memory of all chunks if all are used
     std::size_t object_bytes = 0; ///< additional memory of the rings
 };
-/// Returns the bytes that a sparse segment reserves for ports added while the link is up. They take no memory until
-/// they are used.
+/// Returns the number of bytes that a sparse segment reserves for ports added while the link is up. They take no
+/// memory until they are used.
 std::size_t room_for_late_ports(const RingSizes&);
 /// Returns the memory that an object of this size takes in a segment, including alignment.
 std::size_t object_bytes(std::size_t bytes);

@@ -123,21 +123,20 @@ bool Conversion::run_length(const ConversionStep& step, CdrReader& in, CdrWriter
                                         : cells > 0 && count > 0 && cells <= count &&
                                               count % static_cast<std::uint64_t>(cells) == 0;
         if (!divides)
-            return fail(step,
-                        fmt::format("cannot be computed: '{}' has {} elements, expected are 1, 2, ... for "
-                                    "each of {}",
-                                    step.value, count, describe(step.extent, in)));
+            return fail(step, fmt::format("cannot be computed: '{}' has {} elements, expected 1, 2, ... for "
+                                          "each of {}",
+                                          step.value, count, describe(step.extent, in)));
         value = cells == 0 ? 0 : count / cells;
     }
     return put_number(step.to.kind, value, out) ||
            fail(step, fmt::format("is {}, which its type cannot hold", static_cast<double>(value)));
 }
 
-/// Reduces the count to what the sender's fields state: the elements behind are left out.
+/// Reduces the count to what the sender's fields state: the elements after it are left out.
 bool Conversion::take_first(const ConversionStep& step, std::uint32_t& count, const CdrReader& in) {
     const long double wanted = product(step.extent, in);
     if (!(wanted >= 0 && wanted <= count))
-        return fail(step, fmt::format("has {} elements, expected are {}", count, describe(step.extent, in)));
+        return fail(step, fmt::format("has {} elements, expected {}", count, describe(step.extent, in)));
     count = static_cast<std::uint32_t>(wanted);
     return true;
 }

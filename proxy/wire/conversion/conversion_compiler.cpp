@@ -299,7 +299,7 @@ ConversionStep ConversionCompiler::make_number(const Type& from, const Type& to,
     if ((!same && !asked) || (scaled_integer && !request_.narrow))
         throw ConversionError(
             scaled_integer && same
-                ? fmt::format("field '{}' is {}: a factor rounds it, ask for narrow", path, type_name(to))
+                ? fmt::format("field '{}' is {}: a factor rounds it; ask for narrow", path, type_name(to))
                 : fmt::format("field '{}' is {} at the sender, {} at the receiver: ask for {}", path,
                               type_name(from), type_name(to),
                               can_widen(from.kind, to.kind) ? "widen" : "narrow"));

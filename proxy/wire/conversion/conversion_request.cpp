@@ -62,15 +62,14 @@ double parse_factor(std::string_view item, std::string_view text) {
         double factor = 0;
         const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), factor);
         if (error != std::errc() || end != number.data() + number.size() || factor == 0)
-            fail(item, "expected a number other than 0 behind '*'");
+            fail(item, "expected a number other than 0 after '*'");
         return factor;
     }
     const auto arrow = text.find("->");
     if (arrow == std::string_view::npos)
-        fail(
-            item,
-            "expected is a unit as in 'deg->rad', a factor as in '* 0.001', 'default VALUE', 'from FIELD' or "
-            "'count FIELD'");
+        fail(item,
+             "expected a unit as in 'deg->rad', a factor as in '* 0.001', 'default VALUE', 'from FIELD' or "
+             "'count FIELD'");
     const Unit& from = find_unit(item, trimmed(text.substr(0, arrow)));
     const Unit& to = find_unit(item, trimmed(text.substr(arrow + 2)));
     if (from.dimension != to.dimension)
@@ -79,7 +78,7 @@ double parse_factor(std::string_view item, std::string_view text) {
     return from.factor / to.factor;
 }
 
-/// Removes the word from the beginning of the text, with the spaces behind it. Returns false if the word is not there.
+/// Removes the word from the beginning of the text, with the spaces after it. Returns false if the word is not there.
 bool take_word(std::string_view& text, std::string_view word) {
     if (!text.starts_with(word)) return false;
     const auto rest = text.substr(word.size());
@@ -128,7 +127,7 @@ ConversionRequest::Refusal parse_refusal(std::string_view item, std::string_view
     auto words = split_words(text);
     const bool unless = words.size() > 1 && words[1] == "unless";
     const std::size_t first = unless ? 2 : 1;
-    if (words.size() <= first) fail(item, "expected the sender's field and a word or number behind 'refuse'");
+    if (words.size() <= first) fail(item, "expected the sender's field and a word or number after 'refuse'");
     ConversionRequest::Refusal refusal{words.front(), {}, unless};
     refusal.words.assign(words.begin() + static_cast<std::ptrdiff_t>(first), words.end());
     return refusal;

@@ -54,7 +54,7 @@ struct ConversionRequest {
     const Rule* find(std::string_view target) const;
 };
 
-/// Throws ConversionError with the item that is not understood.
+/// Throws ConversionError naming the item that is not understood.
 ConversionRequest parse_conversion_request(std::string_view text);
 
 } // namespace tandem::wire

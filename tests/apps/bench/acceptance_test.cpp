@@ -83,7 +83,7 @@ TEST_CASE("Limits are checked in both directions and for figures without a denom
     CHECK_FALSE(check_acceptance({{"x", Comparison::at_most, 4, "tandem/a", "baseline/b"}}, of)[0].passed());
 }
 
-TEST_CASE("Every limit compares cases that there are") {
+TEST_CASE("Every limit compares existing cases") {
     const Registry registry = all_cases();
     std::vector<std::string> ids;
     for (const Case& each : registry.cases) ids.push_back(each.id());

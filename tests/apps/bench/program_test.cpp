@@ -150,8 +150,9 @@ TEST_CASE("A paired row is a ratio of short windows, and those in which others h
     if (allowed_cores().size() > 1) CHECK(measured >= 18);
 }
 
-TEST_CASE("Tails are those of as many messages as were asked for, and as many over the minimal ring",
-          "[alone]") {
+TEST_CASE(
+    "Tails are measured over the requested number of messages, and over as many through the minimal ring",
+    "[alone]") {
     const Folder folder;
     const auto json = folder.file("tails.json");
     const auto result = bench(
@@ -169,7 +170,7 @@ TEST_CASE("Tails are those of as many messages as were asked for, and as many ov
     }
 }
 
-TEST_CASE("Wrong options end in one line and a code") {
+TEST_CASE("Invalid options end with one line and an exit code") {
     for (const auto& [arguments, text] : std::vector<std::pair<std::vector<std::string>, std::string>>{
              {{"--only", "nothing-of-this-name"}, "--list"},
              {{"--cores", "9999"}, "may not use core 9999"},

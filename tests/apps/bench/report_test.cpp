@@ -31,7 +31,7 @@ TEST_CASE("A report is the same after being written as JSON and read") {
     CHECK(after.find("peer/x") == nullptr);
 }
 
-TEST_CASE("A row of ticks says how many came late by a period or more and how many periods that cost") {
+TEST_CASE("A row of ticks states how many were late by a period or more, and how many periods were lost") {
     Row ticks = row("tandem/opros/tick/8/blocking", {900});
     ticks.tick_counts = TickCounts{2, 5};
     const Report before = report({ticks, row("tandem/a", {200})});

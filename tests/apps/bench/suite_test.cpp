@@ -80,7 +80,7 @@ TEST_CASE("A side that hangs is killed and one that crashes is named and nothing
               std::string::npos);
 }
 
-TEST_CASE("A case that needs two cores says so where there is one") {
+TEST_CASE("A case that needs two cores says so if there is only one") {
     Case pair = alone("pair", [](Session&) {});
     pair.placement = Placement::processes;
     const Row row = measured({pair}).rows.at(0);

@@ -55,7 +55,7 @@ TEST_CASE("The summary of several runs has the median of each percentile and the
     CHECK(median({4, 1, 3, 2}) == 2.5);
 }
 
-TEST_CASE("A message gives its number back and a changed word is noticed") {
+TEST_CASE("The number of a message is read back, and a changed word is noticed") {
     for (std::size_t bytes : {8U, 64U, 4096U, 65536U}) {
         std::vector<std::uint64_t> words(bytes / 8);
         fill_message(words.data(), bytes, 77);

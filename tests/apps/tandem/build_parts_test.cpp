@@ -165,7 +165,7 @@ TEST_CASE(
     CHECK(text_of(forwards / "project/idl/GreeterSkel.h") == "#include <GreeterSkel.h>\n");
 }
 
-TEST_CASE("a header is searched in the whole checkout by the longest matching part of its path") {
+TEST_CASE("the whole checkout is searched for a header by the longest matching part of its path") {
     const Folder folder;
     CHECK(find_checkout(folder.path() / "Old").empty());
     fs::create_directories(folder.path() / ".git");
@@ -211,7 +211,7 @@ TEST_CASE("a header is searched in the whole checkout by the longest matching pa
     CHECK_FALSE(fs::exists(folder.path() / "x.h"));
 }
 
-TEST_CASE("a header that is nowhere may be in a submodule that is not checked out") {
+TEST_CASE("a header that is not found may be in a submodule that is not checked out") {
     const Folder folder;
     fs::create_directories(folder.path() / ".git");
     folder.write(".gitmodules", "[submodule \"arm\"]\n\tpath = lib/arm\n\turl = https://example.org/arm\n"

@@ -119,7 +119,7 @@ TEST_CASE("bash completes the values of options of tandem") {
     CHECK(completions({"tandem", "shm", "stats", "--watch", ""}) == "\n");
 }
 
-TEST_CASE("bash completes the names of links, without running what other files are called") {
+TEST_CASE("bash completes the names of links, without executing the names of other files") {
     const shm::test::Link link;
     const auto first = shm::test::join(link, shm::Side::first);
     const std::string hostile = "/dev/shm/tandem.$(touch completed-" + link.name + ").1";
@@ -134,7 +134,7 @@ TEST_CASE("bash completes the names of links, without running what other files a
     std::filesystem::remove(hostile);
 }
 
-TEST_CASE("bash completes the names of running components, without running what they are called") {
+TEST_CASE("bash completes the names of running components, without executing them") {
     // Instead of the program, so that no component has to run.
     const std::string program = "tandem() { echo $* >> asked; echo NAME TYPE STATE; echo Arm Motor ACTIVE; "
                                 "echo Adaptor AdaptorComp READY; echo \\$\\(touch\\${IFS}completed\\) X; "

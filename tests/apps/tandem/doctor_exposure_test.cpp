@@ -157,7 +157,7 @@ TEST_CASE_METHOD(FakeMachine, "an rtc.conf of a running host that cannot be read
     check(results, "rtm_host (pid 12): settings", CheckStatus::warning, "unknown");
 }
 
-TEST_CASE_METHOD(FakeMachine, "a running monitor is shown with its address and whether it controls") {
+TEST_CASE_METHOD(FakeMachine, "a running monitor is shown with its address and whether it allows control") {
     process(20, "tandem", {"tandem", "monitor"}, "0100007F:1F90");
     process(21, "tandem", {"tandem", "monitor", "--bind", "::", "--control"},
             "00000000000000000000000000000000:1F91");
@@ -169,7 +169,7 @@ TEST_CASE_METHOD(FakeMachine, "a running monitor is shown with its address and w
     check(results, "tandem monitor (pid 21)", CheckStatus::warning, "control with the token");
 }
 
-TEST_CASE_METHOD(FakeMachine, "a CORBA server of another kind is a warning also at a loopback address") {
+TEST_CASE_METHOD(FakeMachine, "a CORBA server of another kind is a warning even at a loopback address") {
     process(30, "rtcd2", {"rtcd2"}, "0100007F:0AFB");
     process(31, "python3", {"python3"}, "00000000:1F40"); // no CORBA
     file("/proc/30/maps", "7f00 r-xp 00000000 00:00 0 /usr/lib/libomniORB4.so.2\n");

@@ -140,7 +140,7 @@ TEST_CASE_METHOD(FakeMachine, "RemoveIPC is read by logind's rules") {
         file("/etc/systemd/logind.conf", "[Other]\nRemoveIPC=no\n");
         is(check_remove_ipc(machine), CheckStatus::warning, "yes");
     }
-    SECTION("a drop-in overrules the main file") {
+    SECTION("a drop-in file overrides the main file") {
         file("/etc/systemd/logind.conf.d/50-ipc.conf", "[Login]\nRemoveIPC = yes\n");
         is(check_remove_ipc(machine), CheckStatus::warning, "50-ipc.conf");
     }
@@ -160,7 +160,7 @@ TEST_CASE_METHOD(FakeMachine, "RemoveIPC is read by logind's rules") {
         machine.probed.user = 120;
         is(check_remove_ipc(machine), CheckStatus::ok, "system user");
     }
-    SECTION("the setting does not matter where systemd is not running") {
+    SECTION("the setting does not matter if systemd is not running") {
         file("/etc/systemd/logind.conf", "[Login]\nRemoveIPC=yes\n");
         std::filesystem::remove_all(machine.path("/run/systemd"));
         is(check_remove_ipc(machine), CheckStatus::ok, "is not running");
@@ -317,9 +317,9 @@ TEST_CASE_METHOD(FakeMachine, "a virtual machine is a warning that names its ven
     is(check_hypervisor(machine), CheckStatus::warning, "QEMU Standard PC");
 }
 
-TEST_CASE_METHOD(FakeMachine, "a processor that does not tell of a hypervisor is not said to have none") {
+TEST_CASE_METHOD(FakeMachine, "a processor that reports no hypervisor is not claimed to have none") {
     file("/proc/cpuinfo", "processor\t: 0\nBogoMIPS\t: 108.00\nFeatures\t: fp asimd evtstrm crc32 cpuid\n");
-    is(check_hypervisor(machine), CheckStatus::ok, "not known");
+    is(check_hypervisor(machine), CheckStatus::ok, "unknown");
 }
 
 TEST_CASE("every check has a result on this machine") {

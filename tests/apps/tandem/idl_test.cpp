@@ -122,7 +122,7 @@ TEST_CASE("idl2opros ends with omniidl's error if the IDL is invalid") {
                Catch::Contains("file None.idl does not exist"));
 }
 
-TEST_CASE("names that omniidl would give to a shell are refused, and others work") {
+TEST_CASE("names that omniidl's shell would interpret are refused, and others work") {
     const IdlFolder folder;
     folder.write("Arm.idl", "interface Arm { void stop(); };\n");
     const auto run = [&](std::vector<std::string> arguments) {

@@ -58,7 +58,7 @@ TEST_CASE("a node without connections to other nodes needs no rtm_host") {
     CHECK(node_settings(part_of(folder, "alone"), {}).empty());
 }
 
-TEST_CASE("settings of a node's own rtc.conf hold, and its lists are continued") {
+TEST_CASE("settings of a node's own rtc.conf take effect, and its lists are extended") {
     const Folder folder;
     const auto conf =
         folder.write("rtc.conf", "corba.endpoints: 192.168.7.1:2811\ncorba.permitted_hosts: all\n"

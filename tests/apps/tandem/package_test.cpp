@@ -36,7 +36,7 @@ TEST_CASE("an installed tree that was moved builds components by find_package an
     CHECK(by_command.exit_code == 0);
     CHECK_THAT(by_command.output, Catch::Contains("Arm: started, gain 2"));
     run(bin + "tandem opros check " + arm + "/ArmApp.xml");
-    // Nothing of the installation knows where it was built or first installed.
+    // No file of the installation knows where it was built or first installed.
     CHECK(shell("grep -rl " + (folder.path() / "first").string() + " " + moved).output.empty());
     CHECK(shell("grep -rl " BUILD_TREE " " + moved + "/lib").output.empty());
 }

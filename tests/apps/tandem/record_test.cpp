@@ -174,7 +174,7 @@ TEST_CASE("a recording that is killed can be read") {
 
 namespace {
 
-/// Chunks that lie in the file with all of their bytes, by the lengths in front of its records.
+/// Chunks that lie in the file with all of their bytes, by the lengths before its records.
 std::size_t complete_chunks(const std::string& path) {
     std::ifstream in(path, std::ios::binary);
     const std::string bytes(std::istreambuf_iterator<char>(in), {});

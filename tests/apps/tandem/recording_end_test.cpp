@@ -155,7 +155,7 @@ TEST_CASE("a closed pipe behind the output of a recorder does not cost the recor
     check_closed(folder.file);
 }
 
-TEST_CASE("a recording of links that do not exist is an error and no file") {
+TEST_CASE("a recording of links that do not exist is an error and leaves no file") {
     const Folder folder;
     const auto none =
         tandem_program({"record", "no-such-link", "-o", folder.file.string(), "--duration", "0.1"});

@@ -233,7 +233,7 @@ TEST_CASE("clean removes the segments of dead processes and nothing else") {
     CHECK(shm_program({"stats", living.name}).exit_code == 0);
 }
 
-TEST_CASE("an error of tandem shm is one line on standard error and exit code 1") {
+TEST_CASE("an error of tandem shm is reported in one line on standard error, with exit code 1") {
     const auto lines = [](const std::string& text) { return std::count(text.begin(), text.end(), '\n'); };
     for (const std::vector<std::string>& arguments : {std::vector<std::string>{"info", "nosuchlink"},
                                                       {"stats", "no/such"},

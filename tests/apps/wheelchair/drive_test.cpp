@@ -122,7 +122,7 @@ TEST_CASE("a gamepad's left stick drives, up is forward and left is left") {
     CHECK(pad.gamepad.update());
     CHECK(pad.gamepad.position().x == 2000);
     CHECK(pad.gamepad.position().y == 2000);
-    pad.send(EV_ABS, ABS_Y, 145); // half of what is behind the dead zone would be 155
+    pad.send(EV_ABS, ABS_Y, 145); // half of what is beyond the dead zone would be 155
     CHECK(pad.gamepad.update());
     CHECK(pad.gamepad.position().y == -778);
 }
@@ -151,7 +151,7 @@ TEST_CASE("values beyond the range of an axis, and events of other kinds, are bo
     CHECK_FALSE(position.emergency_stop);
 }
 
-TEST_CASE("the emergency-stop button is reported once per press, also for a short press") {
+TEST_CASE("the emergency-stop button is reported once per press, even for a short press") {
     PipeGamepad pad;
     pad.send(EV_KEY, BTN_SOUTH, 1);
     CHECK(pad.gamepad.update());

@@ -17,7 +17,7 @@ TEST_CASE("a run is drawn as SVG") {
     CHECK_THAT(svg, Catch::Contains("</svg>"));
 }
 
-TEST_CASE("a comparison is drawn as SVG and as PNG, also when nothing differs") {
+TEST_CASE("a comparison is drawn as SVG and as PNG, even if nothing differs") {
     const ScratchDir dir;
     const auto rows = simulate(find_scenario("step20"));
     draw_comparison(dir / "fig14.svg", "step20", {{"opros", rows}, {"rtm", rows}, {"mixed", rows}});

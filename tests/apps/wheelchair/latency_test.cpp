@@ -94,7 +94,7 @@ TEST_CASE("a reference overtaken within a tick is received, one that never arriv
     CHECK(count_samples(joystick, {}).received == 0);
 }
 
-TEST_CASE("references are lost if none arrives any more, but for the last second, in which hosts stop") {
+TEST_CASE("references are lost if no more arrive, except in the last second, in which the hosts stop") {
     std::vector<JoystickRecord> joystick;
     std::vector<ControlRecord> control;
     for (int n = 1; n <= 500; ++n) {

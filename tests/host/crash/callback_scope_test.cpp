@@ -11,7 +11,7 @@ using tandem::crash::CallbackScope;
 using tandem::crash::find_running_callback;
 
 namespace {
-// Any address names a component.
+// The address of any object can stand for a component.
 std::string running_in(const int& component) {
     const auto found = find_running_callback(&component);
     return found ? found->name : "none";
@@ -34,8 +34,8 @@ TEST_CASE("the callback of a component is known in every thread while it runs") 
     CHECK(running_in(camera) == "none");
 }
 
-TEST_CASE("of nested callbacks the innermost of the component is known, also when it has called another "
-          "component") {
+TEST_CASE(
+    "of nested callbacks, the component's innermost one is known, even if it has called another component") {
     const int camera = 0, arm = 0;
     const CallbackScope outer(&camera, "camera", "onExecute", nullptr);
     {
@@ -49,7 +49,7 @@ TEST_CASE("of nested callbacks the innermost of the component is known, also whe
 }
 
 TEST_CASE(
-    "of callbacks in several threads the one that has run longest is known, however deep a thread nests") {
+    "of callbacks in several threads, the one that has run longest is known, however deeply a thread nests") {
     const int camera = 0;
     const CallbackScope first(&camera, "camera", "onActivated", nullptr);
     std::thread([&] {
@@ -64,8 +64,7 @@ TEST_CASE(
     CHECK(running_in(camera) == "onActivated");
 }
 
-TEST_CASE(
-    "the innermost callback of a thread stands in its text while it runs, cut to the room that is there") {
+TEST_CASE("a thread's text names its innermost callback while it runs, truncated to the available space") {
     tandem::crash::CallbackText text{};
     const std::string long_name(200, 'n');
     {

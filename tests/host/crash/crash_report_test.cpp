@@ -27,7 +27,7 @@ struct Folder {
     }
 };
 
-/// Runs rtm_host with three tanks, of which the second one has the fault.
+/// Runs rtm_host with three tanks. The second one has the fault.
 CommandResult run_rtm(const std::string& fault) {
     const Folder folder;
     const std::string conf =
@@ -40,7 +40,7 @@ CommandResult run_rtm(const std::string& fault) {
     return tandem::process::run_command({TANDEM_RTM_HOST, "-f", conf});
 }
 
-/// Does the same with opros_host.
+/// Runs opros_host with three tanks. The second one has the fault.
 CommandResult run_opros(const std::string& fault) {
     const Folder folder;
     std::string components;
@@ -61,7 +61,7 @@ CommandResult run_opros(const std::string& fault) {
         {TANDEM_OPROS_HOST, "--plugin-path", TANDEM_TEST_PLUGINS, application});
 }
 
-/// The block: from its first line to the end, nothing of the host comes after it.
+/// The block: from its first line to the end, the host writes nothing after it.
 std::string block(const CommandResult& result, const std::string& host) {
     const auto begin = result.errors.find(host + ": component ");
     return begin == std::string::npos ? "no block in:\n" + result.errors : result.errors.substr(begin);
@@ -143,18 +143,16 @@ TEST_CASE("opros_host names the component that crashes, its callback, plugin, fa
     check_block(run_opros(expected.fault), expected, "opros_host", "Tank1", "TankComp.so");
 }
 
-TEST_CASE("An exception that a thread of a component's own does not catch is named with its type and text") {
+TEST_CASE("An uncaught exception in a component's own thread is reported with its type and text") {
     const bool rtm = GENERATE(true, false);
     const CommandResult result = rtm ? run_rtm("own thread") : run_opros("own thread");
     INFO(result.errors);
     CHECK(result.status.signalled);
     CHECK(result.status.code == SIGABRT);
-    CHECK_THAT(
-        result.errors,
-        Contains(
-            std::string(rtm ? "rtm_host" : "opros_host") +
-            ": crashed outside of the callbacks of components: an exception that nobody catches, of type "
-            "std::runtime_error: valve 3 does not answer, in watch_valve at 0x"));
+    CHECK_THAT(result.errors,
+               Contains(std::string(rtm ? "rtm_host" : "opros_host") +
+                        ": crashed outside of the callbacks of components: an uncaught exception of type "
+                        "std::runtime_error: valve 3 does not answer, in watch_valve at 0x"));
     CHECK_THAT(result.errors,
                Contains("watch_valve  (") && Contains(rtm ? "/TankRtc.so +0x" : "/TankComp.so +0x"));
 }

@@ -80,7 +80,7 @@ TEST_CASE("a request of any size up to the limit is answered") {
     CHECK_THROWS_AS(send_request(scene.socket, large + "yyy", long_enough), std::length_error);
 }
 
-TEST_CASE("a request that takes too long gets its late reply, and the server goes on") {
+TEST_CASE("a request that takes too long still gets its reply, and the server continues") {
     Scene scene;
     CHECK(send_request(scene.socket, "hang", long_enough) == "hang is late");
     CHECK(send_request(scene.socket, "next", long_enough) == "<next>");
@@ -162,7 +162,7 @@ TEST_CASE("the socket is only this user's, and gone with its server") {
 }
 
 TEST_CASE(
-    "the socket of a killed process accepts no connection, also while its child lives, and is removed") {
+    "the socket of a killed process accepts no connection, even while its child lives, and is removed") {
     int started[2];
     REQUIRE(::pipe(started) == 0);
     const pid_t host = ::fork();

@@ -40,7 +40,7 @@ std::string printed(std::vector<std::string> arguments) {
 
 } // namespace
 
-TEST_CASE("A wrong command line is one line that names the command, what is wrong and where to look") {
+TEST_CASE("A usage error is reported in one line that names the command, what is wrong and where to look") {
     CHECK(printed({"run", "."}).empty());
     CHECK(printed({"run", "--help"}).empty());
     CHECK(printed({}) == "tool: a command is missing; see tool --help\n");

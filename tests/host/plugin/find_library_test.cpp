@@ -34,7 +34,7 @@ TEST_CASE("a library name with its prefix is found as it is") {
     CHECK(find_library((folder.path / "libHello.so").string(), {}) == folder.path / "libHello.so");
 }
 
-TEST_CASE("a library that is nowhere gives an error of one line with the names and folders tried") {
+TEST_CASE("a library that is not found is an error of one line with the names and folders tried") {
     CHECK_THROWS_WITH(find_library("Hello.dll", {"/first", "/second"}),
                       Catch::Contains("Hello.dll") && Catch::Contains("libHello.so") &&
                           Catch::Contains("/first, /second"));

@@ -123,7 +123,7 @@ TEST_CASE("a library with the expected ABI number is accepted, and one without a
     CHECK_NOTHROW(require(RTM_PLUGIN, number));                   // that model's affair
 }
 
-TEST_CASE("a library of the wrong model is refused with what it is and which program takes it") {
+TEST_CASE("a library of the wrong model is refused, and the error names its model and the program for it") {
     const auto require = [](const char* file, LibraryKind kind) {
         tandem::plugin::require_kind(file, read_contents(file), kind);
     };
@@ -140,7 +140,7 @@ TEST_CASE("a library of the wrong model is refused with what it is and which pro
                       Catch::Contains("neither"));
 }
 
-TEST_CASE("what is no library of this machine is refused with its own reason") {
+TEST_CASE("a file that is not a library for this machine is refused, with the specific reason") {
     CHECK(refusal("/nowhere/X.so").reason == Reason::not_found);
     CHECK(refusal("/tmp").reason == Reason::not_found);
     CHECK(refusal("/dev/zero").reason == Reason::not_found);
@@ -205,7 +205,7 @@ TEST_CASE("random damage to a library ends in an answer or an Error and nothing 
     CHECK(refused > rounds / 10);
 }
 
-TEST_CASE("a library's symbols are read once, also when it is loaded, and again after it has changed") {
+TEST_CASE("a library's symbols are read once, even if it is then loaded, and again after it has changed") {
     using tandem::plugin::Library;
     using namespace std::chrono_literals;
     const File file(bytes_of(GOOD_LIBRARY));

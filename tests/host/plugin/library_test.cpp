@@ -52,7 +52,8 @@ TEST_CASE("an instance keeps its library loaded") {
     CHECK_FALSE(loaded(GOOD_LIBRARY));
 }
 
-TEST_CASE("a missing file, a file that is no library and an unresolved symbol give their own reasons") {
+TEST_CASE(
+    "a missing file, a file that is not a library, and an unresolved symbol have different error messages") {
     CHECK(reason_of("/nowhere/lib.so") == Reason::not_found);
     const auto text =
         std::filesystem::temp_directory_path() / ("tandem_no_library_" + std::to_string(getpid()));

@@ -15,7 +15,7 @@ const char* const crashing = ZOO "/opros/entry_crashes.so";
 
 } // namespace
 
-TEST_CASE("each of several libraries that are tried side by side has its own result") {
+TEST_CASE("libraries that are tried in parallel each have their own result") {
     ParallelProbes probes(options, "load-opros");
     for (const char* library : {OPROS_PLUGIN, crashing, ZOO "/opros/entry_throws.so"}) probes.begin(library);
     CHECK_THROWS_WITH(probes.finish(ZOO "/opros/entry_throws.so"), Catch::Contains("no camera at port 3"));

@@ -53,7 +53,7 @@ bool loaded(const char* file) {
 
 } // namespace
 
-TEST_CASE("load and start and stop and unload leave memory and descriptors as they were") {
+TEST_CASE("loading, starting, stopping and unloading leave memory and descriptors as they were") {
     const Folder folder;
     const auto application = talks_to_itself(folder);
     for (int round = 0; round < 20; ++round) run_once(application, folder, round);

@@ -64,7 +64,7 @@ TEST_CASE("opros_host refuses a bad plugin in one line at the library's name") {
     CHECK_THAT(result.errors, Catch::Contains(bad));
 }
 
-TEST_CASE("opros_host runs the good plugins on without the bad one") {
+TEST_CASE("opros_host keeps running the good plugins without the bad one") {
     const std::string bad = GENERATE(from_range(bad_ones));
     const Folder folder;
     folder.component("Good", OPROS_PLUGIN);
@@ -140,7 +140,7 @@ TEST_CASE("rtm_host warns of a component whose destructor hangs, runs it and lea
 }
 
 TEST_CASE(
-    "a plugin built against the headers of another Tandem is refused before its code runs with what to do") {
+    "a plugin built against the headers of another Tandem is refused before its code runs, with the remedy") {
     const auto [bad, number] =
         GENERATE(table<std::string, std::string>({{"another_tandem", " 999999, here it is "},
                                                   {"another_tandem_in_part", " and 999999, here it is "},
@@ -189,7 +189,7 @@ TEST_CASE(
                                   Catch::EndsWith("build it again\n"));
 }
 
-TEST_CASE("a host takes a plugin of the wrong model for what it is") {
+TEST_CASE("a host recognizes a plugin of the wrong model") {
     const Folder folder;
     folder.component("Bad", RTM_PLUGIN);
     const auto opros =

@@ -49,7 +49,7 @@ TEST_CASE("the calls of a series run in order, in one thread as long as they ret
     CHECK_FALSE(BoundedCall::any_running());
 }
 
-TEST_CASE("a series goes on without a call that takes too long, if its caller wants that") {
+TEST_CASE("a series continues without a call that takes too long, if its caller wants that") {
     const bool goes_on = GENERATE(true, false);
     struct Shared {
         std::atomic<bool> may_return{false};

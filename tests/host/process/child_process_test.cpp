@@ -43,7 +43,7 @@ TEST_CASE("a child's end is seen by poll and by wait, with its exit code") {
     CHECK_FALSE(child.poll()->success());
 }
 
-TEST_CASE("a wait for a child that runs on ends with its timeout") {
+TEST_CASE("a wait for a child that keeps running ends with its timeout") {
     ChildProcess child(shell("exec sleep 1000"));
     CHECK_FALSE(child.wait(10ms));
     CHECK(child.kill());
@@ -63,7 +63,7 @@ TEST_CASE("a child that handles SIGTERM ends cleanly, one that ignores it is kil
     CHECK(deaf.poll()->signalled);
 }
 
-TEST_CASE("a child does not outlive its object and its group not the child") {
+TEST_CASE("a child does not outlive its object, nor its group the child") {
     OutputPipe pipe;
     pid_t child = 0, grandchild = 0;
     {
@@ -85,7 +85,7 @@ TEST_CASE("a forked child can be taken over") {
     CHECK(child.poll()->code == 7);
 }
 
-TEST_CASE("a child whose exit code other code of the process has taken has ended with an unknown one") {
+TEST_CASE("a child whose exit code was taken by other code of the process has an unknown exit code") {
     ChildProcess child(shell("exit 3"));
     REQUIRE(waitpid(child.pid(), nullptr, 0) == child.pid());
     REQUIRE(child.wait(30s));
@@ -94,7 +94,7 @@ TEST_CASE("a child whose exit code other code of the process has taken has ended
     CHECK_THAT(child.poll()->text(), Catch::Contains("unknown exit code"));
 }
 
-TEST_CASE("a program that cannot be started is named with the cause, and with a remedy where one is known") {
+TEST_CASE("a program that cannot be started is named with the cause, and with a remedy if one is known") {
     CHECK_THROWS_WITH(ChildProcess({"/no/such/program"}),
                       "/no/such/program cannot be started: No such file or directory");
     CHECK_THAT(tandem::process::NotStarted(EPERM, "/bin/true cannot be watched").what(),
@@ -114,7 +114,7 @@ TEST_CASE("a child starts with no signal blocked") {
 }
 
 // Connections that a library has accepted, for example, stay open at the other end as long as any process has them.
-TEST_CASE("a child has no descriptors but those that it is given, also if others may be inherited") {
+TEST_CASE("a child has only the descriptors that it is given, even if others are inheritable") {
     int ends[2];
     REQUIRE(pipe(ends) == 0); // without O_CLOEXEC
     const int high = fcntl(ends[0], F_DUPFD, 200);

@@ -60,7 +60,7 @@ TEST_CASE("a failed output names the file and the reason") {
                       Contains("/dev/full cannot be written: No space left on device"));
 }
 
-TEST_CASE("a link of the same user is followed, also in a shared folder") {
+TEST_CASE("a link of the same user is followed, even in a shared folder") {
     const Folder folder;
     fs::create_symlink("target", folder.path / "link");
     write_output(folder.path / "link", "private");

@@ -39,7 +39,7 @@ bool has_ended(const std::string& pid) {
 
 } // namespace
 
-TEST_CASE("a command's output, errors, report and exit code come back") {
+TEST_CASE("a command's output, errors, report and exit code are returned") {
     const auto end = run_shell("echo report >&3; echo output; echo error >&2; exit 5");
     CHECK(end.report == "report\n");
     CHECK(end.output == "output\n");
@@ -58,7 +58,7 @@ TEST_CASE("a command killed by a signal is distinguished from one that has exite
     CHECK_THAT(end.failure(), Catch::Contains("was killed by signal 11"));
 }
 
-TEST_CASE("of a long standard error the end is kept") {
+TEST_CASE("the end of a long standard error is kept") {
     CommandOptions options;
     options.max_errors = 4096;
     const auto end = run_shell("head -c 9000 /dev/zero | tr '\\0' x >&2; echo last >&2", options);
@@ -97,7 +97,7 @@ TEST_CASE("a command that does not end is killed and so are its own children") {
     CHECK(has_ended(end.report));
 }
 
-TEST_CASE("a grandchild that holds the pipes open does not hold up the caller and is killed") {
+TEST_CASE("a grandchild that holds the pipes open does not block the caller, and is killed") {
     const auto end = run_shell("sleep 1000 & echo $! >&3");
     CHECK_FALSE(end.timed_out);
     CHECK(has_ended(end.report));

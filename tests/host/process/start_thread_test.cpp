@@ -28,7 +28,7 @@ bool names_the_limit(const std::string& line, const std::string& start) {
 
 } // namespace
 
-TEST_CASE("a thread that cannot be started is one line with the limit and the remedy") {
+TEST_CASE("a thread that cannot be started is reported in one line with the limit and the remedy") {
     CHECK(holds_at_thread_limit([](const auto& reach_limit) {
         reach_limit();
         try {
@@ -64,7 +64,7 @@ TEST_CASE("limits are listed as candidates when none of them is reached") {
     }));
 }
 
-TEST_CASE("a process that cannot be started is one line with the limit and the remedy") {
+TEST_CASE("a process that cannot be started is reported in one line with the limit and the remedy") {
     CHECK(holds_at_thread_limit([](const auto& reach_limit) {
         reach_limit();
         try {

@@ -112,5 +112,5 @@ TEST_CASE("a shared tick rehearses its cycle once in 64 rounds, and its cycles a
     CHECK(rehearsals >= cycles / 64 - 1);
     CHECK(rehearsals <= cycles / 64 + 1);
     CHECK(wrong == 0);
-    CHECK(too_early == 0); // a rehearsal is no part of the cycle's duration
+    CHECK(too_early == 0); // the cycle's duration excludes the rehearsal
 }

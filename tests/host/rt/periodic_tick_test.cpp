@@ -118,7 +118,7 @@ struct DefaultTick {
 
 } // namespace
 
-TEST_CASE("ticks that no user has given a spin poll for at most a tenth of a processor together") {
+TEST_CASE("ticks without a spin set by the user poll for at most a tenth of a processor together") {
     auto first = std::make_unique<DefaultTick>(2ms); // polls for 100 us: a twentieth
     DefaultTick second(2ms), third(2ms);
     CHECK(first->polls_within(1000));
@@ -129,7 +129,7 @@ TEST_CASE("ticks that no user has given a spin poll for at most a tenth of a pro
     CHECK(fourth.polls_within(1000));
 }
 
-TEST_CASE("a tick that no user has given a spin does not poll while no message crosses") {
+TEST_CASE("a tick without a spin set by the user does not poll while no message crosses") {
     DefaultTick tick(5ms);
     tick.messages_cross = false;
     CHECK_FALSE(tick.polls_within(100));

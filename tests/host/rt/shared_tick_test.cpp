@@ -114,7 +114,7 @@ TEST_CASE("a shared tick that is woken and changed in a cycle, which then rests,
     CHECK(cell.reaches(2));
 }
 
-TEST_CASE("a cycle that waits for long gets a separate thread, and its neighbours keep theirs") {
+TEST_CASE("a cycle that waits for a long time gets a separate thread, and its neighbours keep theirs") {
     Cell one(10ms), two(10ms);
     Cell slow(10ms, [] {
         std::this_thread::sleep_for(4ms);

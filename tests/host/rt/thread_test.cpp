@@ -18,7 +18,7 @@ TEST_CASE("a thread that is set up has its name and a timer slack of one nanosec
     }).join();
 }
 
-TEST_CASE("a processor that does not exist gives a notice of one line and the thread runs on") {
+TEST_CASE("a processor that does not exist causes a notice of one line, and the thread keeps running") {
     std::thread([] {
         const auto notices = configure_this_thread({"pinned", 0, 100000});
         REQUIRE(notices.size() == 1);

@@ -42,7 +42,7 @@ std::optional<TickSlot> slot_named(const std::string& name) {
 
 } // namespace
 
-TEST_CASE("ticks are counted where another process reads them, and no more when they have ended") {
+TEST_CASE("ticks are counted where another process can read them, until they have ended") {
     {
         PeriodicTick tick({.period = 1ms, .name = "Plant0"});
         for (int i = 0; i < 20; ++i) tick.wait();
@@ -61,7 +61,7 @@ TEST_CASE("ticks are counted where another process reads them, and no more when 
     CHECK_FALSE(slot_named("Plant0"));
 }
 
-TEST_CASE("the page tells when the next tick is due, and that none is") {
+TEST_CASE("the page tells when the next tick is due, or that none is") {
     PeriodicTick tick({.period = 1ms, .name = "Plant0"});
     CHECK(slot_named("Plant0")->due_ns == 0);
     tick.wait();

@@ -41,7 +41,7 @@ TEST_CASE("A coil TimeValue keeps seconds and microseconds of one sign") {
     CHECK(coil::TimeValue(-2, 300000).usec() == -700000);
 }
 
-TEST_CASE("A coil TimeValue comes from numbers and goes to seconds as a double") {
+TEST_CASE("A coil TimeValue is made from numbers and converts to seconds as a double") {
     coil::TimeValue t = 0.25; // not an integer's 0
     CHECK(t.usec() == 250000);
     t = -1.75;
@@ -119,7 +119,7 @@ TEST_CASE("trylock of a coil Mutex is false when it has got the lock and try_loc
     mutex.unlock();
 }
 
-TEST_CASE("A coil Condition wakes who waits and gives up after its time") {
+TEST_CASE("A coil Condition wakes its waiters, and a wait ends at its timeout") {
     coil::Mutex mutex;
     coil::Condition<coil::Mutex> condition(mutex);
     bool notified = false;
@@ -251,7 +251,7 @@ TEST_CASE("The logical coil clock stands still and the adjusted one runs on") {
     CHECK(clocks.getClock("").gettime() > std::chrono::hours(24 * 365 * 50));
 }
 
-TEST_CASE("coil shared memory is seen by who opens it and is bounded") {
+TEST_CASE("coil shared memory is visible to every process that opens it, and is bounded") {
     const std::string name = "/tandem_coil_test_" + std::to_string(coil::getpid());
     char text[5] = "";
     {
@@ -301,7 +301,7 @@ TEST_CASE("coil finds files by name and by extension") {
     fs::remove_all(dir);
 }
 
-TEST_CASE("coil opens libraries and says why not") {
+TEST_CASE("coil opens libraries, or reports why it cannot") {
     coil::DynamicLib library;
     CHECK(library.symbol("cos") == nullptr);
     REQUIRE(library.open("libm.so.6") == 0);

@@ -82,7 +82,7 @@ class HostProcess {
                          std::chrono::milliseconds timeout = std::chrono::seconds(30)) {
         return wait_for_text(output, text, timeout);
     }
-    /// Does the same for standard error.
+    /// Waits up to 30 s until `text` appears on standard error.
     bool wait_for_error(const std::string& text) {
         return wait_for_text(errors, text, std::chrono::seconds(30));
     }
@@ -124,7 +124,7 @@ class HostProcess {
         }
         return false;
     }
-    /// CPU time so far of all threads, also of those that have ended, in ticks of sysconf(_SC_CLK_TCK): 10 ms.
+    /// CPU time so far of all threads, including those that have ended, in ticks of sysconf(_SC_CLK_TCK): 10 ms.
     long cpu_ticks() const {
         std::ifstream stat("/proc/" + std::to_string(pid_) + "/stat");
         std::string line;

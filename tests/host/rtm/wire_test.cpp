@@ -26,7 +26,7 @@ Bytes bytes_of(const Data& data, bool little_endian = true) {
     return bytes;
 }
 
-/// The same without what omniORB leaves in the bytes between values.
+/// Returns the bytes with `count` zeros from `at`, because omniORB leaves padding between values uninitialized.
 Bytes without_padding(Bytes bytes, std::size_t at, std::size_t count) {
     std::fill_n(bytes.begin() + static_cast<std::ptrdiff_t>(at), count, Bytes::value_type{0});
     return bytes;
@@ -61,7 +61,7 @@ TEST_CASE("An interface and a reference to it have the interface's id and name")
     CHECK(CORBA_Util::toTypename<RTC::TimedLong>() == std::string("TimedLong"));
 }
 
-TEST_CASE("A sequence of doubles is aligned behind its length") {
+TEST_CASE("A sequence of doubles is aligned after its length") {
     RTC::TimedDoubleSeq data;
     data.tm.sec = data.tm.nsec = 0;
     data.data.length(1);
@@ -203,7 +203,7 @@ TEST_CASE("Repository ids are those that tools and peers compare") {
     CHECK(std::string(RTC::ExtendedFsmService::_PD_repoId) == "IDL:omg.org/RTC/ExtendedFsmService:1.0");
 }
 
-TEST_CASE("Names of the name server go to text and back") {
+TEST_CASE("Names of the name server are converted to text and back") {
     const CosNaming::Name name = RTC::CorbaNaming::toName("pc.host_cxt/arm.v2.rtc/x");
     REQUIRE(name.length() == 3);
     CHECK(std::string(name[1].id) == "arm.v2");

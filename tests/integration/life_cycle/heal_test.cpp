@@ -39,7 +39,7 @@ class ServoHosts : public TwoHosts {
 
 } // namespace
 
-TEST_CASE("a link works after its RTC was reset and activated, also after the next restart of the RTM host") {
+TEST_CASE("a link works after its RTC was reset and activated, even after the next restart of the RTM host") {
     ServoHosts hosts;
     hosts.fail_rtc();
     const auto before = hosts.output("opros").size();

@@ -161,7 +161,7 @@ std::vector<Arrow> arrows_of_adaptor(LifeCycleHosts& hosts) {
     const auto rtm = [&hosts](std::vector<std::string> arguments) {
         return [&hosts, arguments = std::move(arguments)] { hosts.rtm(arguments); };
     };
-    const auto fails = [&hosts] { // a parameter that is set to what it is changes nothing
+    const auto fails = [&hosts] { // setting a parameter to its current value would change nothing
         hosts.rtm({"conf", "ServoRtc0", "fails=0"});
         hosts.rtm({"conf", "ServoRtc0", "fails=1"});
     };

@@ -28,7 +28,7 @@ struct GalleryPicture {
             OPROS_SERIALIZATION_NVP(height) >> OPROS_SERIALIZATION_NVP(pixelByte) >>
             OPROS_SERIALIZATION_NVP(size);
         room.resize(static_cast<std::size_t>(width) * height * pixelByte +
-                    1); // of its own, also for no bytes
+                    1); // of its own, even for no bytes
         char* bytes = room.data();
         ar.load(&bytes, size);
     }

@@ -36,7 +36,7 @@ PREPROCESSOR = re.compile(r"^\s*#")
 
 
 def mark(line):
-    """The declaration with an attribute, which stands in front of it or, of a class, of its name."""
+    """The declaration with an attribute, which precedes it, or the name of a class."""
     if CLASS.match(line):
         return CLASS.sub(lambda found: found[1] + MARK, line)
     return re.sub(r"^(\s*)", lambda found: found[1] + MARK, line, count=1)

@@ -7,7 +7,7 @@
 
 namespace {
 
-/// The plugin of these tests in front of the usual one; with `both`, also the InterceptorComp of the others.
+/// The plugin of these tests before the usual one; with `both`, also the InterceptorComp of the others.
 void use_opros_api(TwoHosts& hosts, bool both = false) {
     std::vector<std::string> switches{"--plugin-path", PUBLIC_OPROS_API};
     if (both) switches.insert(switches.end(), {"--plugin-path", PUBLIC_RTM_API});

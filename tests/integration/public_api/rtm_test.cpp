@@ -11,7 +11,7 @@
 
 namespace {
 
-/// The plugins of these tests in front of the usual ones.
+/// The plugins of these tests before the usual ones.
 void use_public_api(TwoHosts& hosts) { hosts.set_switches({"--plugin-path", PUBLIC_RTM_API}); }
 
 bool maps_public_api(const TwoHosts& hosts) {

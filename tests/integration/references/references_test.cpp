@@ -16,7 +16,7 @@ TEST_CASE("object references passed to and from an OPRoS component refer to the 
     // References as result, in, inout and out argument of a service of the RTC, from a caller in OPRoS.
     CHECK(hosts.says("opros", "vault: coins 1 and 2, exchanged 2, former 1, none 0, other text "
                               "IDL:omg.org/CORBA/BAD_PARAM:1.0"));
-    // The same for a service of the OPRoS component, from a caller in RTM.
+    // References passed to a service of the OPRoS component, from a caller in RTM.
     CHECK(hosts.says("rtm", "mint: kept 1, none 1, swapped 1, given 2, kept then 2"));
     INFO(hosts.output("opros") + hosts.output("rtm"));
     CHECK(hosts.stop_both());

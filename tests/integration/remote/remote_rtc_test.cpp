@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// RTCs behind a link, in a process that knows nothing of the link.
+// RTCs behind a link, in a process that knows nothing about the link.
 #include "tests/apps/tandem/program.hpp"
 #include "tests/integration/two_hosts.hpp"
 
@@ -104,8 +104,8 @@ bool rises(const std::vector<int>& numbers) {
     return std::adjacent_find(numbers.begin(), numbers.end(), std::greater_equal<>()) == numbers.end();
 }
 
-/// The same hosts, with TransitionComp instead of TalkerComp, which makes transitions of Adaptor, and with
-/// ServoRtc0 across the link.
+/// A ForeignHost with ServoRtc0 across the link. TransitionComp, which makes transitions of Adaptor, replaces
+/// TalkerComp.
 class ForeignServo : public ForeignHost {
   public:
     ForeignServo() {
@@ -161,7 +161,8 @@ TEST_CASE("a foreign process that is killed and returns is noticed, connected an
     for (int round = 0; round < 2; ++round) {
         hosts.forget();
         hosts.kill("other");
-        CHECK(hosts.says_now("rtm", "EchoRtc0 has gone with its process; it is looked for until it is back"));
+        CHECK(hosts.says_now("rtm",
+                             "EchoRtc0 has gone with its process; the search continues until it is back"));
         CHECK(hosts.says_now("opros", "port Adaptor.reply was removed: 1 of its connections end"));
         hosts.forget();
         hosts.start_foreign();
@@ -291,7 +292,7 @@ TEST_CASE("a port of an unknown type is left out, and crosses when a library pro
         CHECK(hosts.says("rtm",
                          "port 'raised' of AlarmRtc0: type IDL:TestAlarm/TimedAlarm:1.0 cannot cross the "
                          "link: its IDL is not known to the RTM host; build the RTC's IDL with it, or load "
-                         "a library that has it; this port is left out, the others work"));
+                         "a library that has it; this port is left out, and the others work"));
     CHECK(hosts.stop("opros") == 0);
     CHECK(hosts.becomes("AlarmRtc0", "INACTIVE"));
     CHECK(hosts.stop("rtm") == 0);

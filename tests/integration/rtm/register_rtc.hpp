@@ -3,7 +3,7 @@
 #include <rtm/Manager.h>
 
 /// Registers a factory for `Rtc` under `name`, as the Init function that rtc-template writes does: a data-flow
-/// component with a periodic execution context, of which any number may be created.
+/// component with a periodic execution context, with any number of instances.
 template <class Rtc>
 void register_rtc(RTC::Manager* manager, const char* name) {
     coil::Properties profile;

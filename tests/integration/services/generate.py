@@ -236,7 +236,7 @@ def verify(o, expression, variable, result_variable):
 
 
 def cell(name, block):
-    """A cell of the matrix, which may throw a CORBA exception, too. It is no function of its own: some hundred would be compiled."""
+    """A cell of the matrix, which may throw a CORBA exception, too. It is not a separate function: some hundred would be compiled."""
     return '    try { %s cells.passed(); } catch (...) { cells.failed("%s"); }' % (block, name)
 
 

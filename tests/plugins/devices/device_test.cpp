@@ -81,7 +81,7 @@ TEST_CASE("a sensor has as many channels as its parameter Size and both names of
     CHECK(headings.size() == rotations.size());
 }
 
-TEST_CASE("with a time step two runs of a sensor are the same") {
+TEST_CASE("with a time step, two runs of a sensor are identical") {
     std::vector<ObjectPosture> once, again;
     for (std::vector<ObjectPosture>* run : {&once, &again}) {
         DeviceUnderTest<InertiaMeasurementUnit> imu("InertiaMeasurementUnitApi");
@@ -205,7 +205,7 @@ TEST_CASE("outputs come back as inputs") {
     CHECK(digital == std::vector<bool>{true, false, true});
 }
 
-TEST_CASE("cameras fill a picture of the configured size and nothing behind it") {
+TEST_CASE("cameras fill a picture of the configured size and nothing beyond it") {
     DeviceUnderTest<MultiCamera> cameras(
         "MultiCameraApi", {{"Count", "2"}, {"Width1", "4"}, {"Height1", "2"}, {"PixelBytes1", "1"}});
     std::vector<unsigned char> picture(9, 255);

@@ -39,6 +39,6 @@ class DeviceUnderTest {
     Class* device_ = nullptr;
 };
 
-/// Does the same, as a component of OPRoS v2 does it.
+/// Loads the device as a component of OPRoS v2 does.
 template <typename Class>
 using DeviceOfV2 = DeviceUnderTest<Class, OprosDevice, OPRoS::Property>;

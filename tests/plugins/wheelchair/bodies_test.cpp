@@ -146,7 +146,7 @@ TEST_CASE("an emergency stop requested by service stops the chair and reaches Co
     CHECK(run.control.state() == ControlState::emergency_stop);
 }
 
-TEST_CASE("a deactivated ControlComp leaves no voltage and the brake behind") {
+TEST_CASE("a deactivated ControlComp sets the voltage to zero and applies the brake") {
     const ScratchDir dir;
     Run run(dir, "step20");
     run.steps(300);
@@ -179,7 +179,7 @@ TEST_CASE("a JoystickComp that was started again slows the chair down instead of
     CHECK(run.wires.last_voltage.left > before - 2.0);
 }
 
-TEST_CASE("a JoystickComp whose stick position is old sends nothing, for the driver may have let go") {
+TEST_CASE("a JoystickComp whose stick position is old sends nothing, because the driver may have let go") {
     JoystickBody joystick(read_settings({}), chair_limits()); // monotonic time
     Wires wires;
     wires.send(Stamped<JoystickPosition>{monotonic_seconds() - 1.0, 100, {0.0, 900.0, false}}, {});

@@ -53,7 +53,7 @@ TEST_CASE("without any voltage the watchdog acts 60 ms after it was started") {
     CHECK(chair.watchdog_acts());
 }
 
-TEST_CASE("a forced stop overrules a fresh voltage in the same tick") {
+TEST_CASE("a forced stop overrides a fresh voltage in the same tick") {
     Chair chair = driving(100);
     chair.apply(1.0, Stamped<Voltage>{1.0, 100, {6.0, 6.0, false}}, true);
     CHECK(stopped(chair));

@@ -61,7 +61,7 @@ TEST_CASE("a wheel speed 50 ms old is accepted and one 60 ms old is a fault") {
     CHECK(stopped(d.tick(1.06, 1.06, 1.06)));
 }
 
-TEST_CASE("the emergency stop acts at once and is latched, also over a later fault") {
+TEST_CASE("the emergency stop acts at once and is latched, even over a later fault") {
     Driving d;
     CHECK(stopped(d.law.tick(1.0, {1.0, 0, d.straight}, {1.0, 0, {3.0, 3.0, true, 0, 0}})));
     CHECK(d.law.state() == ControlState::emergency_stop);

@@ -26,7 +26,7 @@ struct StickPath {
 
 } // namespace
 
-TEST_CASE("a live stick is read as it was written, in whole counts within its ends") {
+TEST_CASE("a live stick is read as it was written, in whole counts within its limits") {
     const StickPath file;
     LiveStick writer(file.path, LiveStick::Role::writer);
     const LiveStick reader(file.path, LiveStick::Role::reader);
@@ -69,7 +69,7 @@ TEST_CASE("a reader never sees half of a position") {
     CHECK(torn == 0);
 }
 
-TEST_CASE("a scenario takes its stick from a live one, and a file that is none is refused") {
+TEST_CASE("a scenario follows a live stick, and a file that is not one is refused") {
     const StickPath file;
     {
         LiveStick writer(file.path, LiveStick::Role::writer);

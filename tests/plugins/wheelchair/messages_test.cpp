@@ -9,7 +9,7 @@
 
 using namespace tandem::wheelchair;
 
-TEST_CASE("a message is stamp, sequence number and elements, and comes back as it went") {
+TEST_CASE("a message is stamp, sequence number and elements, and is read back unchanged") {
     const Stamped<WheelSpeed> sent{1.25, 125, {2.0, 3.0, true, 400, 500}};
     const auto message = pack(sent);
     CHECK(std::vector<double>(message.begin(), message.end()) ==
@@ -19,7 +19,7 @@ TEST_CASE("a message is stamp, sequence number and elements, and comes back as i
     CHECK(pack(*back) == message);
 }
 
-TEST_CASE("a message of another length or without a finite stamp is not believed") {
+TEST_CASE("a message of another length or without a finite stamp is ignored") {
     CHECK_FALSE(unpack<Reference>(std::vector<double>{1, 2, 3}));
     CHECK_FALSE(unpack<Reference>(std::vector<double>{1, 2, 3, 4, 5}));
     CHECK_FALSE(unpack<Reference>(std::vector<double>{}));

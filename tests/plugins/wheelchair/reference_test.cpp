@@ -128,7 +128,7 @@ TEST_CASE("a reference that stays out for two seconds stops the chair until the 
     CHECK(rows.back().wheel_left > 1.0);
 }
 
-TEST_CASE("backwards in a curve the chair yaws as a car does") {
+TEST_CASE("in reverse in a curve, the chair yaws like a car") {
     const auto rows = simulate(extra("reverse_steering"));
     CHECK(rows[390].steering_true_deg == Approx(12.0).margin(0.5));
     CHECK(rows[390].heading < rows[200].heading);

@@ -31,7 +31,7 @@ void poke(const std::filesystem::path& path, std::streamoff at, T value) {
 
 } // namespace
 
-TEST_CASE("records come back in order, across the growth of the file") {
+TEST_CASE("records are read back in order, even when the file grows") {
     const ScratchDir dir;
     const auto path = dir / "a.trace";
     Trace<JoystickRecord> trace(path);

@@ -386,7 +386,7 @@ TEST_CASE("an adaptor without a link name, or with an invalid number, does not i
     CHECK_THROWS_WITH(adaptor::read_settings({}), Catch::Contains("'link' is missing"));
 }
 
-TEST_CASE("a property gives the operations of a service if the peer has told none") {
+TEST_CASE("a property gives the operations of a service if the peer has published none") {
     const auto settings =
         adaptor::read_settings({{"link", "x"}, {"operations.books", "pages=sad:ai, size=:i"}});
     link::Port port;

@@ -38,7 +38,7 @@ TEST_CASE("an RTC in ERROR puts the adaptor in ERROR") {
     CHECK(eventually([&] { return scene.component.getStatus() == OPROS_CS_ERROR; }));
 }
 
-TEST_CASE("an adaptor stays ACTIVE when a peer that returned goes again before the RTC is active") {
+TEST_CASE("an adaptor stays ACTIVE if a peer that has returned leaves again before the RTC is active") {
     const std::string name = fmt::format("test-adaptor-gone-{}", getpid());
     std::optional<Peer> peer(std::in_place, name);
     adaptor::AdaptorComp component;
@@ -182,7 +182,7 @@ TEST_CASE(
     CHECK(scene.peer.count(".activate") == 1);
 }
 
-TEST_CASE("a stop in ERROR deactivates the RTCs, and the adaptor does not start by itself any more") {
+TEST_CASE("a stop in ERROR deactivates the RTCs, and the adaptor no longer starts by itself") {
     Scene scene("withdrawn");
     REQUIRE(scene.component.start() == OPROS_SUCCESS);
     report(scene.peer, link::control::failed);

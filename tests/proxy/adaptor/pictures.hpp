@@ -83,7 +83,7 @@ struct Receiver {
     MirrorOutPort output;
 };
 
-/// Does the same in the other direction.
+/// Sends values from an OPRoS port to the link.
 template <class T>
 struct Sender {
     Sender(Wire& wire, const std::string& convert = "")

@@ -85,9 +85,8 @@ std::vector<std::byte> camera_message(const Camera& camera, std::uint16_t bpp) {
 
 } // namespace
 
-TEST_CASE(
-    "the picture of a camera RTC arrives with the bytes of a pixel that it has, or is refused, whatever "
-    "its bpp") {
+TEST_CASE("the picture of a camera RTC arrives with its number of bytes per pixel, or is refused, whatever "
+          "its bpp") {
     Wire wire("cameras", "IDL:RTC/CameraImage:1.0", camera_signature);
     Receiver<BelievingImage> believing(wire);
     std::uint64_t refused = 0;
@@ -112,7 +111,7 @@ TEST_CASE(
     CHECK(refused > 0);
 }
 
-TEST_CASE("a picture of each size goes to an RTC and back, and has bpp for its bytes of a pixel") {
+TEST_CASE("a picture of each size goes to an RTC and back, and has bpp for its bytes per pixel") {
     Wire wire("pictures", "IDL:RTC/CameraImage:1.0", camera_signature);
     Sender<RawImage> sender(wire);
     Receiver<RawImage> receiver(wire);

@@ -82,7 +82,7 @@ TEST_CASE("an input port uses the queue that its component gave it, whoever send
     reference.clearConnection();
 }
 
-TEST_CASE("an input port uses its queue also for messages in chunks") {
+TEST_CASE("an input port also uses its queue for messages in chunks") {
     Scene scene("queue-loan");
     auto& reference = scene.port<OutputDataPortInterface>("reference");
     Input input(OPROS_FIFO, 2);
@@ -180,7 +180,7 @@ link::ChannelWriter& waiting_writer(Scene& scene, std::chrono::milliseconds wait
 
 } // namespace
 
-TEST_CASE("of several input ports, the slowest one loses nothing of a sender that waits for room") {
+TEST_CASE("of several input ports, the slowest one loses no message of a sender that waits for room") {
     Scene scene("queues-wait");
     auto& reference = scene.port<OutputDataPortInterface>("reference");
     Input inputs[] = {Input(OPROS_FIFO, 4), Input(OPROS_FIFO, 200), Input(OPROS_UFIFO, 4)};
@@ -215,8 +215,8 @@ TEST_CASE("of several input ports, the slowest one loses nothing of a sender tha
     reference.clearConnection();
 }
 
-TEST_CASE(
-    "of several input ports, one that reads nothing loses counted messages and keeps none from the others") {
+TEST_CASE("of several input ports, one that reads nothing loses messages, which are counted, and withholds "
+          "none from the others") {
     Scene scene("queues-stopped");
     auto& reference = scene.port<OutputDataPortInterface>("reference");
     Input reading(OPROS_FIFO, 200), stopped(OPROS_FIFO, 4);

@@ -221,7 +221,7 @@ TEST_CASE("a generic servant and generic calls carry every type in both directio
         check_out_arguments(stub);
         check_exceptions(stub);
     }
-    SECTION("object references come back as themselves") {
+    SECTION("object references come back unchanged") {
         TestChair::Chair_var stub = TestChair::Chair::_narrow(active.object);
         CORBA::Object_var none = CORBA::Object::_duplicate(stub);
         TestChair::Furniture_var back = stub->neighbour(stub, none.out());
@@ -260,7 +260,7 @@ TEST_CASE("a generic servant whose target is not ready does not exist for client
     CHECK(target.unknown == "beep");
 }
 
-TEST_CASE("a servant says the truth about its interface, its bases and no others") {
+TEST_CASE("a servant confirms its interface and its bases, and no others") {
     Orb orb;
     ChairServant chair;
     Active active_chair(orb, chair);

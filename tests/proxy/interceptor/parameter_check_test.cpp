@@ -32,7 +32,7 @@ TEST_CASE("a parameter of the other side is reported") {
             "AdaptorComp"});
 }
 
-TEST_CASE("an unknown parameter of a port is reported, also one of AdaptorComp's") {
+TEST_CASE("an unknown parameter of a port is reported, including one of AdaptorComp's") {
     for (const std::string name : {"dedline_ms.goal", "convert.goal"})
         CHECK(find_useless_parameters({name}, arm()) ==
               Lines{"parameter '" + name +

@@ -66,8 +66,9 @@ TEST_CASE("a caller whose values cannot cross learns whether the call has run, a
     orb.poa->deactivate_object(id);
 }
 
-TEST_CASE("a call of an operation that a component does not have is BAD_OPERATION, and before it is known "
-          "TRANSIENT") {
+TEST_CASE(
+    "a call of an operation that a component lacks raises BAD_OPERATION, or TRANSIENT while its operations "
+    "are unknown") {
     Orb orb;
     link::test::LinkSide side{shm::Side::second, {.name = link::test::unique_name("unknown")}, {}};
     const auto call_hide = [&](std::vector<link::ServiceOperation> operations) {

@@ -118,7 +118,7 @@ TEST_CASE("with the time before the message the bytes are contiguous and those o
     }
 }
 
-TEST_CASE("a message that ends early throws, wherever it ends, and nothing behind it is accessed") {
+TEST_CASE("a message that ends early throws, wherever it ends, and nothing beyond it is accessed") {
     const interceptor::Orb orb;
     const auto whole = bytes_by_orb(example());
     for (std::size_t length = 0; length < whole.size() - head; ++length) {

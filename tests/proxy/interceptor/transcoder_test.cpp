@@ -197,7 +197,7 @@ std::vector<std::byte> cdr_of(std::uint32_t number) {
 
 } // namespace
 
-TEST_CASE("an any that the peer makes of a structure is extracted by those who know its type") {
+TEST_CASE("an any that the peer makes of a structure can be extracted by code that knows its type") {
     Orb orb;
     std::vector<std::byte> inner;
     wire::CdrWriter value(inner);

@@ -43,7 +43,7 @@ TEST_CASE("an announced message is read even after the peer has gone") {
     Generation generation(ends.writer, ends.reader);
     for (const double value : {1.0, 2.0, 3.0}) REQUIRE(send(ends.writer, value));
     SECTION("by empty()") { REQUIRE_FALSE(ends.reader.empty()); }
-    SECTION("by the number of those that wait") { REQUIRE(ends.reader.waiting_locked() == 3); }
+    SECTION("by waiting_locked()") { REQUIRE(ends.reader.waiting_locked() == 3); }
     CHECK(ends.unbind() == 2);
     CHECK_FALSE(ends.reader.empty());
     CHECK(ends.reader.waiting_locked() == 1);

@@ -58,7 +58,7 @@ struct Notes {
 
 } // namespace
 
-TEST_CASE("calls go in both directions, also from within a call") {
+TEST_CASE("calls go in both directions, even from within a call") {
     const auto name = unique_name("calls");
     auto a = adaptor(name), b = interceptor(name);
     b->on_call = [&](const Request& request) {
@@ -86,7 +86,7 @@ TEST_CASE("two chains of 16 nested calls at once return") {
     }
 }
 
-TEST_CASE("a chain of nested calls may enter each direction as often as calls may be under way") {
+TEST_CASE("a chain of nested calls may cross in each direction as often as there may be calls under way") {
     TwoSides sides("chain");
     sides.a->on_call = bounce(*sides.a);
     sides.b->on_call = bounce(*sides.b);
@@ -95,7 +95,7 @@ TEST_CASE("a chain of nested calls may enter each direction as often as calls ma
     CHECK(sides.a->link.call({"p", longest, "", {}}, soon).text() == "bottom");
 }
 
-TEST_CASE("64 callers of each side at once all get their results, also while each call is held") {
+TEST_CASE("64 callers of each side at once all get their results, even while each call is held") {
     TwoSides sides("callers");
     std::atomic<int> held{0};
     for (auto* side : {sides.a.get(), sides.b.get()})

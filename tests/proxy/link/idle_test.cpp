@@ -80,7 +80,7 @@ TEST_CASE("an idle link whose file is truncated, superseded or removed joins the
     IdleLink link("lost");
     const std::string path = shm::segment_path(link.name, shm::list_generations(link.name).at(0));
     SECTION("truncated to nothing") { REQUIRE(truncate(path.c_str(), 0) == 0); }
-    SECTION("truncated behind the headers") {
+    SECTION("truncated after the headers") {
         REQUIRE(truncate(path.c_str(), shm::layout::arenas_begin) == 0);
     }
     SECTION("removed") { REQUIRE(unlink(path.c_str()) == 0); }

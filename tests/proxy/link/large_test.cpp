@@ -119,7 +119,7 @@ TEST_CASE("images of 1 MiB and 1080p pass in both directions by default") {
     check_counters(link.b->link.reader("position").counters(), number, number);
 }
 
-TEST_CASE("64 MiB pass in both directions whichever side asks for it") {
+TEST_CASE("64 MiB pass in both directions, whichever side requests them") {
     const bool adaptor_asks = GENERATE(true, false);
     Linked link("huge", adaptor_asks ? large(65 * mib) : LinkOptions{},
                 adaptor_asks ? large(2 * mib) : large(65 * mib));
@@ -276,7 +276,9 @@ int images_in_small_shm() {
     if (!send_image(writer, 3, pixels) || receive_image(reader) != 3) return 1;
     for (int i = 0; i < 3; ++i) // the reader holds the first one until its next read
         if (send_image(writer, 3, pixels)) return 2;
-    if (log.lines_with("port 'reference': a message of 8388512 bytes finds no memory in /dev/shm") != 2)
+    if (log.lines_with(
+            "port 'reference': a message of 8388512 bytes does not fit into the free memory of /dev/shm") !=
+        2)
         return 3;
     if (!send(writer, 4.5) || receive(reader) != 4.5) return 4;
     if (!send_image(writer, 3, pixels) || receive_image(reader) != 3) return 5;

@@ -75,7 +75,7 @@ TEST_CASE("a listener is called once for arrived messages and not after it was r
     CHECK(calls == 1);
 }
 
-TEST_CASE("the doorbell wakes the notifier for each message, also of a peer that returned") {
+TEST_CASE("the doorbell wakes the notifier for each message, including those of a peer that returned") {
     const auto name = unique_name("doorbell");
     auto a = adaptor(name);
     std::atomic<int> calls{0};
@@ -169,7 +169,7 @@ TEST_CASE("all consequences of a peer's departure are over before the next peer'
     b = interceptor(name);
     b->link.open();
     // Waits for a while to check that it does not happen.
-    CHECK_THROWS_WITH(b->link.wait_until_up(100ms, "peer"), Catch::Contains("did not come"));
+    CHECK_THROWS_WITH(b->link.wait_until_up(100ms, "peer"), Catch::Contains("did not join"));
     CHECK(b->link.call({"", "activate", "", {}}, 100ms).status != CallStatus::ok);
     may_return = true;
     wait_until_up(*a, *b);
@@ -224,7 +224,7 @@ TEST_CASE("a peer that never comes is reported with its name and the link") {
     a->link.open();
     CHECK_THROWS_WITH(a->link.wait_until_up(20ms, "InterceptorComp"),
                       Catch::Contains(name) &&
-                          Catch::Contains("InterceptorComp did not come within 0.02 s") &&
+                          Catch::Contains("InterceptorComp did not join within 0.02 s") &&
                           Catch::Contains("start it with link=" + name));
 }
 
@@ -238,7 +238,7 @@ TEST_CASE("a peer that never comes because another user runs it is reported with
     constexpr uid_t other_user = 12345;
     REQUIRE(chown(path.c_str(), other_user, other_user) == 0);
     CHECK_THROWS_WITH(a->link.wait_until_up(20ms, "InterceptorComp"),
-                      Catch::Contains("InterceptorComp did not come within 0.02 s; " + path +
+                      Catch::Contains("InterceptorComp did not join within 0.02 s; " + path +
                                       " belongs to another user; run both hosts as one user"));
     std::filesystem::remove(path);
 }

@@ -170,7 +170,7 @@ TEST_CASE("a queue holds as many messages as its length, and drops the oldest or
         consumer.join();
         CHECK(reader.counters().refused == 1);
     }
-    SECTION("wait, for a queue of which only its reader knows the length") {
+    SECTION("wait, for a queue whose length only the reader knows") {
         reader.set_depth(3);
         policy.wait = 1ms;
         writer.set_policy(policy);

@@ -74,7 +74,7 @@ TEST_CASE("adding and removing ports while the link is up loses no message of th
     CHECK(b->downs == 0);
 }
 
-TEST_CASE("a peer that comes later gets ports that were added before, also in the next session") {
+TEST_CASE("a peer that comes later gets ports that were added before, including in the next session") {
     const auto name = unique_name("before");
     auto b = interceptor(name);
     b->link.open();
@@ -131,7 +131,7 @@ TEST_CASE("a port that gets another type gets other channels, and nothing passes
     CHECK(receive(b->link.reader(turned)) == 5);
 }
 
-TEST_CASE("a peer that returns gets the port's current type, and nothing of the last session") {
+TEST_CASE("a peer that returns gets the port's current type, and no message of the last session") {
     const auto name = unique_name("again");
     auto a = adaptor(name);
     a->link.open();
@@ -315,7 +315,7 @@ TEST_CASE("late ports beyond what a side can have do not keep the link from comi
     for (std::size_t i = 0; i < shm::layout::max_objects; ++i)
         table.ports.push_back(data_port(fmt::format("late{}", i)));
     b.link.set_ports(table);
-    REQUIRE(eventually([&] { return log.lines_with("later ports that are not shared") == 1; }));
+    REQUIRE(eventually([&] { return log.lines_with("further ports that are not shared") == 1; }));
     a.reset();
     REQUIRE(eventually([&] { return b.downs == 1; }));
     a = std::make_unique<ChangingSide>(shm::Side::first, LinkOptions{name}, PortTable{});

@@ -90,8 +90,8 @@ struct Scene {
         });
     }
 
-    /// Does the same for a consumer without a thread: this thread takes its place. It is woken, so it never
-    /// waits here.
+    /// Takes the turn for a consumer that has no thread, in this thread. A wake-up is pending, so this thread
+    /// never waits.
     void take_turn(const void* consumer) {
         do {
             REQUIRE(send("left"));

@@ -64,7 +64,8 @@ struct Sides {
 
 } // namespace
 
-TEST_CASE("workers that were not needed for long end, also while calls go on, and come back when needed") {
+TEST_CASE("workers that have not been needed for a long time end, even while calls continue, and come back "
+          "when needed") {
     const bool calls_go_on = GENERATE(false, true);
     Sides sides("surplus", 100ms);
     CHECK(sides.call_at_once() == callers);

@@ -347,6 +347,6 @@ TEST_CASE("fields used for counting or refusal must exist and have a suitable ty
     CHECK_THAT(error("{n}i", "n: count cells per"), Contains("expected fields of the sender"));
     CHECK_THAT(error("{cells}ay", "refuse name jpeg; cells: from cells"), Contains("no field 'name'"));
     CHECK_THAT(error("{cells}ay", "refuse cells 1; cells: from cells"), Contains("needs a string"));
-    CHECK_THAT(error("{cells}ay", "refuse format unless"), Contains("a word or number behind 'refuse'"));
-    CHECK_THAT(error("{cells}ay", "refuse format"), Contains("a word or number behind 'refuse'"));
+    CHECK_THAT(error("{cells}ay", "refuse format unless"), Contains("a word or number after 'refuse'"));
+    CHECK_THAT(error("{cells}ay", "refuse format"), Contains("a word or number after 'refuse'"));
 }

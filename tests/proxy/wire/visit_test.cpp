@@ -51,7 +51,7 @@ TEST_CASE("a visitor's function for the kind is called with the type") {
 }
 
 TEST_CASE("each kind has a name and a size of its C++ type, or none") {
-    // By the character of docs/wire_format.md; other kinds are no numbers.
+    // By the character of docs/wire_format.md; other kinds are not numbers.
     const std::map<char, std::size_t> sizes{{'b', 1}, {'c', 1},  {'y', 1}, {'n', 2}, {'q', 2},
                                             {'i', 4}, {'u', 4},  {'x', 8}, {'t', 8}, {'f', 4},
                                             {'d', 8}, {'D', 16}, {'e', 4}};

@@ -100,7 +100,7 @@ TEST_CASE("a caller without memory for long results gets this error, and its slo
     LittleMemory memory;
     const ReplyView failed = calls.client.call_into({}, 60s, memory);
     CHECK(failed.status == CallStatus::exception);
-    CHECK(text_of(failed.bytes) == "results of 65537 bytes find no memory in this process");
+    CHECK(text_of(failed.bytes) == "results of 65537 bytes do not fit into the free memory of this process");
     CHECK(calls.memory_in_file() == before);
     CHECK(calls.client.call_into(bytes_of("x"), 60s, memory).status == CallStatus::ok);
 }

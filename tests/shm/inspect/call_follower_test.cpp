@@ -133,7 +133,7 @@ TEST_CASE("Calls before the first reading do not count as lost, and the last of 
     CHECK(queue.follower().lost() == 0);
 }
 
-TEST_CASE("Long arguments are copied from behind the slots, unless long results have replaced them") {
+TEST_CASE("Long arguments are copied from the file after the slots, unless long results have replaced them") {
     FollowedQueue queue;
     queue.call(1, 5000);
     CHECK(queue.poll(CallActivity::none) == Numbers{1});

@@ -184,8 +184,8 @@ TEST_CASE("a follower ends at bytes that no writer stores") {
     RingFollower follower(file, seen->rings.at(0));
     auto& shared = *ring.handle.view.shared;
     const auto ignore = [](const FollowedRecord&) {};
-    SECTION("a head that is no multiple of a line") { shared.head = 7; }
-    SECTION("a head in front of what it was") {
+    SECTION("a head that is not a multiple of a line") { shared.head = 7; }
+    SECTION("a head that has moved backwards") {
         ring.writer.write(payload_of(1, 48), 0);
         follower.poll(ignore);
         shared.head = 0;
@@ -266,7 +266,7 @@ TEST_CASE("a follower copies no longer messages than its file has memory for") {
 }
 
 TEST_CASE("a follower finds chunks that begin one page after an aligned end of their words") {
-    // Blobs in front of the ring move the end of the chunks' words to the beginning of a page.
+    // Blobs before the ring move the end of the chunks' words to the beginning of a page.
     FollowedRing probe({.max_record = 100, .capacity = 1024, .chunk_bytes = 8192, .chunks = 4}, 1 << 20);
     const auto end_of_words = [](const RingHandle& ring) {
         return reinterpret_cast<std::uintptr_t>(ring.view.chunk_words + ring.view.chunk_count);

@@ -63,7 +63,7 @@ TEST_CASE("the length of a short wait is known with a counter of 19 MHz") {
     CHECK(tick.ns(86'400 * SlowProcessor::hz) == Approx(86'400e9).epsilon(0.001)); // a day
 }
 
-TEST_CASE("two words are copied whole by each form of a processor") {
+TEST_CASE("each form of a processor copies two words without tearing them") {
     CHECK(copies_two_words<PortableProcessor>());
     CHECK(copies_two_words<Processor>());
 }

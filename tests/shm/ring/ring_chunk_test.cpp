@@ -38,7 +38,7 @@ TEST_CASE("a payload longer than a record is written and read in the same place"
     REQUIRE(record);
     CHECK(text_of(record->bytes) == image('i'));
     CHECK(record->stamp_ns == 3);
-    // The same page of the same file: a change here is visible there.
+    // Both ends map the same page of the file, so the reader sees a change by the writer.
     room[0] = std::byte{'!'};
     CHECK(record->bytes[0] == std::byte{'!'});
     CHECK(ring.writer.counters().bytes_sent == large);

@@ -62,7 +62,7 @@ TEST_CASE("a rehearsal publishes nothing, counts nothing and does not change the
 }
 
 TEST_CASE(
-    "a first word and words at another address become one record wherever they fit behind the last one") {
+    "a first word and words at another address become one record wherever they fit after the last one") {
     RingPair ring({.max_record = 200, .capacity = 1024});
     std::size_t published = 0;
     for (std::uint64_t round = 1; round < 200; ++round) {
@@ -280,8 +280,8 @@ TEST_CASE("ring objects may outlive their segment") {
     CHECK(ring.reader.read());
 }
 
-TEST_CASE("the age is measured of the first record, of each 64th, of one that is asked for, and after a "
-          "rehearsal in a fifth of a second without one") {
+TEST_CASE("the age is measured for the first record, each 64th, a requested one, and after a rehearsal if "
+          "none was measured for a fifth of a second") {
     RingPair ring({});
     const RingHandle handle = *ring.second->find_ring(Side::first, "r");
     const auto pass_one_on = [&] {

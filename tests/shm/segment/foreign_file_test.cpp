@@ -87,7 +87,7 @@ TEST_CASE("a name with too many digits is not a generation") {
     CHECK(join(link, Side::first)->generation() == 1);
 }
 
-TEST_CASE("a generation behind the last one is refused in one line") {
+TEST_CASE("a generation beyond the last one is refused in one line") {
     const std::string link = Link().name;
     CHECK(next_generation(link, max_generation - 1, access_of_this_process("")) == max_generation);
     CHECK_THROWS_WITH(next_generation(link, max_generation, access_of_this_process("")),

@@ -130,7 +130,7 @@ TEST_CASE("a process stopped while it joins does not hold up the other side for 
     CHECK(first->superseded());
 }
 
-TEST_CASE("a side leaves a segment without a name at once, also if a process stopped while it joined") {
+TEST_CASE("a side leaves a segment without a name at once, even if a process stopped while it joined") {
     Link link;
     auto first = join(link, Side::first);
     const FileDescriptor stopped(open(first->path().c_str(), O_RDWR | O_CLOEXEC));

@@ -48,7 +48,7 @@ TEST_CASE("a side that a living process holds is refused") {
     CHECK(pair.link.files().size() == 1);
 }
 
-TEST_CASE("any text is made into a name that links may have, and a name that they may have is unchanged") {
+TEST_CASE("any text is converted to a valid name of a link, and a valid one is unchanged") {
     for (const std::string text : {"", "-v", "a/b c", "\xc3\xa4", ".."}) {
         CAPTURE(text);
         CHECK_FALSE(is_link_name(text));

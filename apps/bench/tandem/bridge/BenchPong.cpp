@@ -111,7 +111,7 @@ class PortsOf final : public Ports {
         out_.write();
     }
     bool receive(PingMessage& ping, std::uint64_t& at) {
-        // Two calls, as RTCs are written.
+        // RTCs usually make these two calls.
         if (!in_.isNew()) return false;
         in_.read();
         return get(ping_, ping, at);

@@ -78,7 +78,7 @@ bool is_macro(const std::string& word) {
     return std::isupper(static_cast<unsigned char>(word[0])) != 0 || word.starts_with("m4_");
 }
 
-// Returns whether a command of the shell begins behind the word.
+// Returns whether a command of the shell begins after the word.
 bool precedes_command(const std::string& word) {
     static const std::set<std::string> words{"then", "else", "elif", "do", "if", "while", "until"};
     return words.count(word) != 0;
@@ -109,7 +109,7 @@ class Reader {
     }
 
   private:
-    // Returns whether a command of the shell begins behind the character. What follows && or || is conditional up to the end of
+    // Returns whether a command of the shell begins after the character. What follows && or || is conditional up to the end of
     // the line.
     bool begins_command(const std::string& text, std::size_t at) {
         const char c = text[at], before = at > 0 ? text[at - 1] : '\n';

@@ -244,7 +244,7 @@ class Interpreter {
     std::map<std::string, Macro> macros_;
     bool certain_ = true;  // not within a branch with an unknown condition
     int depth_ = 0;        // of macros and included files
-    int nesting_ = 0;      // of blocks, also through macros and included files
+    int nesting_ = 0;      // of blocks, including through macros and included files
     std::size_t work_ = 0; // commands, their text, and bytes of their words
 };
 

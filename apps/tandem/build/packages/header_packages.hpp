@@ -29,7 +29,7 @@ const char* origin_outside_debian(const std::string& header);
 /// Returns whether the header exists only on Windows or in Visual C++.
 bool is_windows_header(const std::string& header);
 
-/// Returns whether it is a C header of OpenCV 1 or 2, for example cv.h or highgui.h, also below opencv/.
+/// Returns whether it is a C header of OpenCV 1 or 2, for example cv.h or highgui.h, including below opencv/.
 bool is_old_opencv_header(const std::string& header);
 
 } // namespace tandem::command

@@ -17,8 +17,8 @@ class CMakeProjects {
     /// `build`: the parent of the scratch folders; "": a temporary folder, removed with this object.
     CMakeProjects(std::filesystem::path build, double timeout_s);
 
-    /// Returns the target that compiles one of the sources: rather a plugin than a program, rather one named
-    /// `name`. Searches the nearest project above the sources, then the outermost one of the checkout.
+    /// Returns a target that compiles one of the sources. Prefers plugins to programs, and targets named `name`.
+    /// Searches the nearest project above the sources, then the outermost one of the checkout.
     std::optional<ProjectTarget> find_target(const std::filesystem::path& folder,
                                              const std::vector<std::filesystem::path>& sources,
                                              const std::string& name);

@@ -56,7 +56,7 @@ class RecordSequence {
     explicit RecordSequence(ByteView records) : records_(records) {}
     /// Returns nullopt at the end, or if the rest is not a complete record.
     std::optional<RecordView> next();
-    bool torn() const { return position_ < records_.size(); } ///< after the last record: bytes are left
+    bool torn() const { return position_ < records_.size(); } ///< an incomplete record is left
 
   private:
     ByteView records_;

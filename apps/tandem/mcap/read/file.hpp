@@ -33,7 +33,7 @@ class File {
     std::optional<RecordPlace> record_at(std::uint64_t offset);
     /// Returns whether the file contains the whole content of the record.
     bool holds(const RecordPlace& record) const { return record.length <= size_ - record.content(); }
-    /// Returns the content of the record. Throws as read().
+    /// Returns the content of the record. Throws like read().
     ByteView content_of(const RecordPlace& record) { return read(record.content(), record.length); }
     /// Returns an Error with the text "FILE: WHAT".
     Error error(const std::string& what) const { return Error(path_.string() + ": " + what); }

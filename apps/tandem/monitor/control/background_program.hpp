@@ -15,7 +15,7 @@ class BackgroundProgram {
   public:
     /// `output`: the descriptor for its output and errors; -1: those of this process. Throws std::system_error.
     explicit BackgroundProgram(const std::vector<std::string>& command, int output = -1);
-    /// Ends it in order, and kills it `max_end` after the first request. Asks only once: `tandem run` takes a second request
+    /// Ends it cleanly, and kills it `max_end` after the first request. Asks only once: `tandem run` takes a second request
     /// as one to kill its hosts.
     ~BackgroundProgram();
     BackgroundProgram(const BackgroundProgram&) = delete;

@@ -32,7 +32,7 @@ constexpr std::chrono::milliseconds look_pause{20};
 using PlainJson = nlohmann::json;
 
 constexpr std::size_t max_arguments = 16, max_components = 100, max_argument = 300;
-constexpr std::size_t max_replay_end = 2048; ///< bytes: each state has them
+constexpr std::size_t max_replay_end = 2048; ///< in bytes, because each state contains it
 
 std::string random_token() {
     std::array<unsigned char, 16> bytes{};

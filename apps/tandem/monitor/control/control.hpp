@@ -56,7 +56,7 @@ class Control {
     /// folder does not exist, or if the system provides no random numbers.
     Control(boost::asio::io_context& context, std::function<const State&()> state,
             const std::string& systems);
-    /// Ends what clients have started, in order.
+    /// Ends what clients have started, cleanly.
     ~Control();
     Control(const Control&) = delete;
     Control& operator=(const Control&) = delete;

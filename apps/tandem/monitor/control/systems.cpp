@@ -46,7 +46,8 @@ process::FileDescriptor open_log(const fs::path& file, const std::string& name) 
     if (!S_ISREG(status.st_mode)) throw std::invalid_argument(file.string() + " is not a file: remove it");
     if (flock(log.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
         throw std::invalid_argument(
-            name + " runs, started by another monitor, or by one that was killed: end its tandem run first");
+            name +
+            " is running, started by another monitor or by one that was killed: end its tandem run first");
     if (ftruncate(log.get(), 0) != 0)
         throw std::invalid_argument(fmt::format("{}: {}", file.string(), std::strerror(errno)));
     return log;
@@ -129,7 +130,7 @@ void Systems::start(const std::string& name) {
         throw std::invalid_argument(name + " runs");
     if (count_running() >= max_runs)
         throw std::invalid_argument(
-            fmt::format("{} systems run that pages have started: stop one first", max_runs));
+            fmt::format("{} systems started from pages are running: stop one first", max_runs));
     runs_.erase(name); // with the lock of its log
     auto log = open_log(path / "run.log", name);
     const int output = log.get();
@@ -139,7 +140,7 @@ void Systems::start(const std::string& name) {
 void Systems::stop(const std::string& name) {
     const auto run = runs_.find(require_name(name));
     if (run == runs_.end() || run->second.program.look())
-        throw std::invalid_argument(name + " does not run, or was not started from a page");
+        throw std::invalid_argument(name + " is not running, or was not started from a page");
     run->second.program.stop();
 }
 

@@ -35,7 +35,7 @@ class Systems {
     void start(const std::string& name);
     /// Asks a run to end. Throws std::invalid_argument if it does not run.
     void stop(const std::string& name);
-    /// Returns the runs, also those that have ended: [{"name", "running", "since_ms", "end"}]. Keeps their logs bounded.
+    /// Returns the runs, including those that have ended: [{"name", "running", "since_ms", "end"}]. Keeps their logs bounded.
     nlohmann::json runs();
     /// Returns the last 64 KiB of the log of the newest run; empty if there is none.
     std::string log(const std::string& name) const;

@@ -17,7 +17,7 @@ class HostReader {
     /// Further hosts without a link are not shown. State::unseen says so.
     static constexpr std::size_t max_hosts = 256;
 
-    /// `without_links`: also hosts of this user that are on no link.
+    /// `without_links`: includes hosts of this user that are on no link.
     explicit HostReader(bool without_links) : without_links_(without_links) {}
 
     /// Fills in `state.hosts`. `now_ns`: CLOCK_MONOTONIC.

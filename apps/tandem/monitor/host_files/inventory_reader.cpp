@@ -39,7 +39,7 @@ std::uint64_t number(const std::string& text) {
     return value;
 }
 
-/// Returns what distinguishes a file from others, also from one of the process before with the same pid.
+/// Returns what distinguishes a file from others, including one of the process before with the same pid.
 std::uint64_t inode_of(const process::FileDescriptor& file) {
     struct stat info {};
     return fstat(file.get(), &info) == 0 ? info.st_ino : 0;

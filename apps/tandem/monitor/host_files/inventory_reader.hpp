@@ -16,7 +16,7 @@ class InventoryReader {
   public:
     /// Looks for the inventories of a process. Returns false if it has none.
     bool look(std::uint32_t pid);
-    /// Returns what the inventories of a process list; as at the last read if they change meanwhile. Null if it has none.
+    /// Returns what the inventories of a process list. While one is being written, its previous content counts. Null if none.
     std::shared_ptr<const HostInventory> read(std::uint32_t pid);
     /// Forgets all processes but these.
     void keep(const std::vector<std::uint32_t>& pids);

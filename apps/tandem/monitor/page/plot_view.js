@@ -10,10 +10,10 @@ const legendPause = 200; // ms between two texts that people can read
 const dashes = [[], [7, 3], [2, 3], [9, 3, 2, 3], [], [12, 4]], colours = dashes.length;
 let loading = null;
 
-/** Loads uPlot once. Throws an error with the remedy if it is not there. */
+/** Loads uPlot once. Throws an error with the remedy if it is missing. */
 export function loadPlots() {
   loading ??= import('./lib/uPlot.esm.js').then((module) => module.default,
-    () => { throw new Error('uPlot is not there; build Tandem where npm can install it'); });
+    () => { throw new Error('uPlot is missing; build Tandem where npm can install it'); });
   return loading;
 }
 

@@ -21,7 +21,7 @@ struct Picture {
 /// integers `width` and `height` and one list of octets.
 bool is_picture(const wire::Type& message);
 
-/// Returns the picture in a message of a type for which is_picture() is true; nullopt if the bytes are no such message.
+/// Returns the picture in a message of a type for which is_picture() is true; nullopt if the bytes are not such a message.
 std::optional<Picture> picture_in(const wire::Type& message, std::span<const std::byte> bytes);
 
 } // namespace tandem::monitor

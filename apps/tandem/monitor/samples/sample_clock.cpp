@@ -11,7 +11,7 @@
 namespace tandem::monitor {
 namespace {
 
-/// A time further away from that of reading is not of the same clock.
+/// A time further from the time of reading comes from another clock.
 constexpr double believable_ms = 2000;
 /// A larger change between the two clocks of this machine means that the time of day was set.
 constexpr double set_ms = 50;

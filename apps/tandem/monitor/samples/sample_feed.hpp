@@ -33,7 +33,7 @@ struct SamplePort {
 /// Receives the samples of the ports that it follows. [one thread]
 class SampleClient {
   public:
-    /// `json`: chunks of the followed ports with samples since the last call, joined by commas.
+    /// `time_ms`: since 1970. `json`: a chunk for each followed port with new samples, joined by commas.
     virtual void samples(std::uint64_t time_ms, const std::string& json) = 0;
     /// `frame`: the newest picture of a followed port, as docs/monitoring.md describes it.
     virtual void picture(const std::shared_ptr<const std::string>& frame) = 0;

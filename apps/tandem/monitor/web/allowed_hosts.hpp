@@ -16,8 +16,8 @@ class AllowedHosts {
     /// that is neither a host name nor an address.
     explicit AllowedHosts(const std::vector<std::string>& more = {});
 
-    /// Returns whether a request with this header `Host` may be answered. `local`: the connection's own address, which
-    /// is always allowed as a number, because a number is not resolved.
+    /// Returns whether a request with this header `Host` may be answered. `local`: this end's IP address; a `Host` with
+    /// this address is always allowed, because no name had to be resolved.
     bool allows(const std::string& host, const boost::asio::ip::address& local) const;
 
   private:

@@ -55,7 +55,7 @@ int opros_list(const OprosClientOptions& options) {
     else if (!table.empty())
         print_text(table.text());
     if (hosts.empty())
-        throw std::runtime_error("no opros_host of this user runs on this machine; start one first");
+        throw std::runtime_error("no opros_host of this user is running on this machine; start one first");
     if (std::all_of(hosts.begin(), hosts.end(), [](const OprosHost& host) { return host.list.is_null(); }))
         throw std::runtime_error(hosts.front().error);
     return 0;

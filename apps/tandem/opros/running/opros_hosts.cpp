@@ -61,7 +61,8 @@ std::string unknown_component(const std::vector<OprosHost>& hosts, const std::st
                 known.push_back(component.value("name", ""));
     }
     if (hosts.empty())
-        return fmt::format("there is no component {}: no opros_host of this user runs on this machine", name);
+        return fmt::format("there is no component {}: no opros_host of this user is running on this machine",
+                           name);
     return fmt::format("no running opros_host has a component {}{} (there are: {}){}{}", name,
                        text::did_you_mean(name, known),
                        known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", ")),

@@ -29,7 +29,7 @@ class ReceivedSamples {
 
     /// Returns false if there is no room.
     bool add(std::size_t port, std::uint64_t time_ns, const RTC::ByteData& bytes);
-    /// Waits for the first message, at most for `timeout`.
+    /// Removes and returns all waiting messages. If there are none, waits up to `timeout` for the first one.
     std::vector<ReceivedSample> take(std::chrono::milliseconds timeout);
 
   private:

@@ -280,7 +280,7 @@ double record_messages(const RtmRecordOptions& options, mcap::McapWriter& writer
     return seconds();
 }
 
-/// Connects to the ports and records to the file, also if it becomes full. Returns the time in s.
+/// Connects to the ports and records to the file, even if it becomes full. Returns the time in s.
 double record_to(RecordingOutput& output, const RtmClient& client, const RtmRecordOptions& options,
                  RtmRecorder& recorder) {
     try {

@@ -130,7 +130,7 @@ class Publishers {
 
     /// Connects to an InPort. `publisher`: its number; `pid`, `link`; `component`: empty for the end of the link;
     /// `port`; `type`: empty if unknown to the link; `signature`; `add_time`. Throws std::runtime_error with one line,
-    /// also if the type differs.
+    /// even if the type differs.
     void open(const nlohmann::json& request) {
         const auto pid = request.at("pid").get<std::uint32_t>();
         const auto link = request.at("link").get<std::string>(), port = request.at("port").get<std::string>();

@@ -14,7 +14,7 @@ namespace tandem::command {
 void change_configuration(SDOPackage::Configuration_ptr configuration, const ConfOptions& options,
                           bool host_checks);
 
-/// Returns all configuration sets as a list of {set, active, values: {NAME: TEXT}}. Throws as above.
+/// Returns all configuration sets as a list of {set, active, values: {NAME: TEXT}}. Throws like change_configuration().
 nlohmann::json sets_json(SDOPackage::Configuration_ptr configuration);
 
 /// Runs `action`, which calls the two functions above. Converts their exceptions to std::runtime_error with one line.

@@ -36,7 +36,7 @@ std::string ContextInfo::property(const char* name) const {
 
 bool is_in_tandem_host(RTC::RTObject_ptr component) {
     RTC::ExecutionContextList_var own = component->get_owned_contexts();
-    return own->length() > 0 && ContextInfo(own[0]).tells_callbacks();
+    return own->length() > 0 && ContextInfo(own[0]).reports_callbacks();
 }
 
 } // namespace tandem::command

@@ -17,7 +17,7 @@ class ContextInfo {
     /// Returns `onActivated has taken 1.3 s so far`, or an empty text.
     std::string describe_running_callback(const std::string& instance) const;
     /// Returns whether the context reports callbacks, so that an empty running_callback() means that none is running.
-    bool tells_callbacks() const { return !property("tick.cycles").empty(); }
+    bool reports_callbacks() const { return !property("tick.cycles").empty(); }
     /// Returns the period in s, at most 1 for contexts with periods of hours; 0 if unknown.
     double period_s() const;
 

@@ -140,7 +140,7 @@ RemoteComponent RtmClient::search_component(const std::string& name) const {
             return component;
         });
     };
-    // An address or a path refers to one place; only a plain name is searched.
+    // An address or a path refers to one place; only a plain name is looked up everywhere.
     if (name.find("://") != std::string::npos) return found(name);
     if (name.find('/') != std::string::npos) return found("rtcname://" + path_server_ + "/" + name);
     // In managers, component names do not include the kind of the name server's name.

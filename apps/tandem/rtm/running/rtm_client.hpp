@@ -46,7 +46,7 @@ class RtmClient {
     /// Returns HOST:PORT from the options, or from $RTCSH_NAMESERVERS (the variable of rtshell), or localhost.
     const std::vector<std::string>& name_servers() const { return name_servers_; }
     /// Returns HOST:PORT from the options, or all managers in this user's processes on this machine. The first call
-    /// searches them.
+    /// searches for them.
     const std::vector<std::string>& managers() const;
     /// Returns whether the options name the sources. Then only these are queried, and each must answer.
     bool has_explicit_sources() const { return has_explicit_sources_; }

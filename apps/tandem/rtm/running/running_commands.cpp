@@ -34,7 +34,7 @@ void add_tls(CLI::App& command, RtmClientOptions& client) {
 // The last lines of each command's --help.
 constexpr const char* addresses =
     R"(COMPONENT is rtcname://HOST:PORT/PATH/NAME.rtc (a name server), rtcloc://HOST:PORT/NAME (a manager), a
-path PATH/NAME.rtc in the default name server, or a NAME. A NAME is searched in the name servers and in
+path PATH/NAME.rtc in the default name server, or a NAME. A NAME is looked up in the name servers and in
 this user's managers on this machine. With --nameserver or --manager only those are searched, and all of
 them must answer. A port is COMPONENT:PORT.
 Exit code 1 if a component or server does not exist or does not answer in time.)";

@@ -111,7 +111,7 @@ class TransitionRequest {
             return !running_callback().empty(); // requested by another client
         if (state != "ERROR") return true;
         if (transition_ != Transition::reset) return false;
-        return info().tells_callbacks() ? !running_callback().empty() : code_ == RTC::RTC_ERROR;
+        return info().reports_callbacks() ? !running_callback().empty() : code_ == RTC::RTC_ERROR;
     }
 
     [[noreturn]] void throw_error(const std::string& state) const {

@@ -33,7 +33,7 @@ ReturnType EventConnection::push(Event* data) {
         receiver.task_queue()->submit([copy, destination = destination_] { destination->push(*copy); });
     if (accepted) return OPROS_SUCCESS;
     if (!overflow_logged_.exchange(true))
-        log::warn("component {}: events come faster than onEvent takes them, some are lost", receiver.name());
+        log::warn("component {}: events come faster than onEvent takes them; some are lost", receiver.name());
     return OPROS_OUT_OF_RESOURCES;
 }
 

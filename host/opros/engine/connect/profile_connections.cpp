@@ -93,12 +93,12 @@ void ProfileConnections::connect_at_setup(Entry& entry, bool strict) {
         if (strict) throw;
         entry.waits_for_port = true;
         entry.show_refusal(error.what());
-        log::error("{}; this connection is left out until the port is added, the others are made",
+        log::error("{}; this connection is left out until the port is added, and the others are made",
                    error.what());
     } catch (const SetupError& error) {
         if (strict) throw;
         entry.show_refusal(error.what());
-        log::error("{}; this connection is left out, the others are made", error.what());
+        log::error("{}; this connection is left out, and the others are made", error.what());
     }
 }
 

@@ -84,7 +84,7 @@ ComponentHost::ComponentHost(const Subcomponent& entry, ComponentProfile profile
 
 std::string ComponentHost::enter_error(const char* callback, const std::string& why) {
     std::string text = "component " + name_ + ": " + callback + " threw an exception: " + why;
-    log::error("{}; it goes to ERROR, the other components continue", text);
+    log::error("{}; it goes to ERROR, and the other components continue", text);
     error_logged_ = true;
     set_last_error(text);
     try {

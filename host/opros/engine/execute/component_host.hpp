@@ -83,7 +83,7 @@ class ComponentHost {
     std::optional<std::map<std::string, std::string>> properties();
     /// [any-thread] Returns why the component has last gone to ERROR, in one line; empty if it never has.
     std::string last_error() const;
-    /// Deletes the instance. Afterwards nothing of the component may be called, but its library stays loaded.
+    /// Deletes the instance. Afterwards no function of the component may be called, but its library stays loaded.
     void destroy_instance();
     /// Ends this object's use of the library. The library is unloaded when its last user ends its use.
     void unload_library();

@@ -94,7 +94,7 @@ class InputTrigger : public CountingTrigger {
   private:
     ComponentHost& component_;
     bool is_first_cycle_ = true;
-    std::size_t waiting_at_last_cycle_ = 0; // at the begin of that cycle
+    std::size_t waiting_at_last_cycle_ = 0; // at the start of that cycle
 };
 
 /// Triggers one cycle after the other. While the component is not active, triggers once after each change of state.

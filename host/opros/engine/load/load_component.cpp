@@ -14,7 +14,7 @@
 #include <algorithm>
 #include <cctype>
 
-#define MAKE_STATIC_COMPONENT // the host is no component
+#define MAKE_STATIC_COMPONENT // the host is not a component
 #include <ServiceUtils.h>
 #include <TandemAbi.h>
 
@@ -184,7 +184,7 @@ void check_version(plugin::Library& library) {
     if (!library.has("getVersion")) return; // components of OPRoS v1 have none
     const std::string version = library.symbol<const char*()>("getVersion")();
     if (without_last_field(version) != without_last_field(get_opros_version()))
-        log::warn("library {} was made for OPRoS {}, this host is {}", library.path().string(), version,
+        log::warn("library {} was made for OPRoS {}, but this host is {}", library.path().string(), version,
                   get_opros_version());
 }
 

@@ -116,7 +116,8 @@ class NodeFilter {
             if (!source && target)
                 part_.notices.push_back(dependency.location.text() + ": component '" + dependency.source +
                                         "' does not wait for '" + dependency.target + "' of node '" +
-                                        nodes_[dependency.target] + "': <depends> holds within a node");
+                                        nodes_[dependency.target] +
+                                        "': <depends> applies only within a node");
         }
         whole_.dependencies = std::move(local);
     }

@@ -43,13 +43,13 @@ std::vector<ConnectionProfile> merge_equal_errors(std::vector<ConnectionProfile>
 
 std::string second_provider_error(const ConnectionProfile& first, const PortReference& required) {
     return "required port " + required.text() + " is connected to " + first.target.text() + " already, " +
-           first.location.text() + "; expected one provider of a required port, remove one of the two";
+           first.location.text() + "; expected one provider of a required port: remove one of the two";
 }
 
 std::string duplicate_error(const ConnectionProfile& first, std::size_t count) {
     return "connection " + first.source.text() + " -> " + first.target.text() + " is listed " +
            std::to_string(count) + " times, first at " + first.location.text() +
-           "; expected it once, remove the others";
+           "; expected it once: remove the others";
 }
 
 /// Processes the list once, in order.

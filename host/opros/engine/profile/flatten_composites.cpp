@@ -40,7 +40,7 @@ class CompositeFlattener {
         std::vector<std::string> members; ///< its components at all depths, without nested composites
     };
 
-    /// Adds an application or a composite. `prefix` goes in front of its components' names. `node` is the node of its
+    /// Adds an application or a composite. `prefix` precedes its components' names. `node` is the node of its
     /// components that name none.
     void add_assembly(const ApplicationProfile& assembly, const std::string& prefix,
                       const std::string& node) {

@@ -31,7 +31,7 @@ constexpr ElementPlace places[] = {
     {"export_port", "export_ports"},
 };
 
-/// Elements of which the engine reads the first one, in the root element and in these.
+/// The engine reads only the first of these elements, in the root element and in these.
 constexpr std::string_view single_parents[] = {
     "execution_environment", "execution_semantics", "data_port",      "event_port",
     "service_port",          "subcomponent",        "port_connection"};

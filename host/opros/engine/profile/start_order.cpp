@@ -34,8 +34,8 @@ std::vector<std::string> start_order(const ApplicationProfile& profile) {
                 order.push_back(entry->name);
         }
         if (order.size() == size_before)
-            throw SetupError(unmet->location, "component '" + unmet->source + "' depends on '" +
-                                                  unmet->target + "' in a circle");
+            throw SetupError(unmet->location, "circular dependency: component '" + unmet->source +
+                                                  "' depends on '" + unmet->target + "'");
     }
     return order;
 }

@@ -77,7 +77,7 @@ struct by_nothing {};
 template <bool condition, typename Yes, typename No>
 using choose = typename std::conditional<condition, Yes, No>::type;
 
-// Lazy, so that free functions are searched only for types without their own save() and load().
+// Lazy, so that free functions are looked up only for types without their own save() and load().
 template <typename T, bool members>
 struct class_way {
     typedef by_members type;

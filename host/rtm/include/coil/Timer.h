@@ -56,7 +56,7 @@ class PeriodicFunction {
     std::mutex m_mutex;
 };
 
-/// A list of functions that run in the thread that calls tick(). emplace(): [any-thread], also from within a
+/// A list of functions that run in the thread that calls tick(). emplace(): [any-thread], even from within a
 /// function.
 template <class Function>
 class Timer {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A POSIX shared memory object for components that share memory among themselves; nothing of Tandem uses it.
+// A POSIX shared memory object for components that share memory among themselves. Tandem itself does not use it.
 #include <coil/SharedMemory.h>
 #include <cstring>
 #include <fcntl.h>

@@ -101,7 +101,7 @@ using Pre = PreComponentActionListenerType;
 using Post = PostComponentActionListenerType;
 
 // The active configuration set is applied after onInitialize, which has bound the variables. Every component has one:
-// tools restore a system by activating it, also if it has no parameters.
+// tools restore a system by activating it, even if it has no parameters.
 ReturnCode_t RTObject_impl::on_initialize() {
     return run_guarded("onInitialize", 0, Pre::PRE_ON_INITIALIZE, Post::POST_ON_INITIALIZE, [&] {
         const ReturnCode_t result = onInitialize();

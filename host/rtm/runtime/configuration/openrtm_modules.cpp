@@ -15,7 +15,8 @@ const std::vector<OpenRtmModule>& openrtm_modules() {
         {"ExtendedFsmServiceProvider", true, "tools do not get the structure of a state machine"},
         {"LoggerConsumer", true, built_in},
         {"RTPreemptEC", true,
-         "PeriodicExecutionContext has what it adds, and RTPreemptEC is another name of it"},
+         "PeriodicExecutionContext has its features, and RTPreemptEC is another name for "
+         "PeriodicExecutionContext"},
         {"ArtExecutionContext", false, "choose another exec_cxt.periodic.type"},
         {"LogicalTimeTriggeredEC", false, "choose another exec_cxt.periodic.type"},
         {"FileNameservice", false, "use corba.nameservers, or rtcloc:// names"},

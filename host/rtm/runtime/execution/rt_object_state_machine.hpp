@@ -41,7 +41,7 @@ class RTObjectStateMachine {
     /// The reference is not duplicated; it is valid as long as this object.
     RTC::LightweightRTObject_ptr reference() const { return reference_.in(); }
 
-    // The steps of one cycle, in this order. In a rehearsal (host/rt/rehearsal.hpp) they call nothing of the component and
+    // The steps of one cycle, in this order. In a rehearsal (host/rt/rehearsal.hpp) they call no function of the component and
     // change nothing.
 
     /// Carries out the pending transition. A transition that fails leads to the ERROR state. Returns false if none is pending.

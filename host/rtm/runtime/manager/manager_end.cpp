@@ -82,7 +82,7 @@ void Manager::Impl::wait_for_end_at_exit() {
     });
 }
 
-// Wakes those who wait for the end, also if a step has thrown.
+// Wakes those who wait for the end, even if a step has thrown.
 struct Manager::Impl::EndNotice {
     ~EndNotice() {
         std::lock_guard<std::recursive_mutex> lock(impl.mutex);

@@ -52,7 +52,7 @@ struct Manager::Impl {
         ECDeleteFunc destroy;
     };
     // Guards what follows. Recursive, because functions that hold it call others that take it. Not held
-    // while callbacks of components run: they call the manager, also from threads of their own.
+    // while callbacks of components run: they call the manager, even from threads of their own.
     mutable std::recursive_mutex mutex;
     coil::Properties config; // Manager::getConfig() hands it out without the mutex, as OpenRTM-aist does
     std::vector<Module> modules;
@@ -109,7 +109,7 @@ struct Manager::Impl {
     void discard_component(RTObject_impl& component, std::shared_ptr<FactoryBase> factory);
     /// Throws ManagerError, with the names of all components, if there is no component of that name.
     RTObject_impl& require_component(Manager& manager, const std::string& name);
-    /// Returns the folders in which modules are searched, in order.
+    /// Returns the folders that are searched for modules, in order.
     std::vector<std::filesystem::path> module_dirs() const;
     struct ModuleFile {
         std::filesystem::path file;

@@ -88,7 +88,7 @@ void CorbaNaming::rebindContext(const CosNaming::Name& name, CosNaming::NamingCo
     bind_name(m_rootContext.in(), name, force, rebind_context(name_cxt));
 }
 
-// The same four functions with the name as a string.
+// bind, rebind, bindContext and rebindContext with the name as a string.
 void CorbaNaming::bindByString(const char* string_name, CORBA::Object_ptr obj, bool force) {
     bind(toName(string_name), obj, force);
 }
@@ -102,7 +102,7 @@ void CorbaNaming::rebindContext(const char* string_name, CosNaming::NamingContex
     rebindContext(toName(string_name), name_cxt, force);
 }
 
-// The same four functions below another context than the root.
+// bind, rebind, bindContext and rebindContext in a context other than the root.
 void CorbaNaming::bindRecursive(CosNaming::NamingContext_ptr context, const CosNaming::Name& name,
                                 CORBA::Object_ptr obj) {
     bind_recursive(context, name, bind_object(obj));

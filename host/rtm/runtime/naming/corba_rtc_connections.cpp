@@ -26,7 +26,7 @@ coil::vstring list_connectors(RTC::PortService_ptr port, ConnectorText text) {
 const char* name_of(const RTC::ConnectorProfile& connector) { return connector.name; }
 const char* id_of(const RTC::ConnectorProfile& connector) { return connector.connector_id; }
 
-// The same function for a port by its name. Returns an empty list if the component has no such port.
+// Overload for a port by its name. Returns an empty list if the component has no such port.
 coil::vstring list_connectors(RTObject_ptr rtc, const std::string& port_name, ConnectorText text) {
     RTC::PortService_var port = get_port_by_name(rtc, port_name);
     return CORBA::is_nil(port.in()) ? coil::vstring() : list_connectors(port.in(), text);

@@ -33,7 +33,7 @@ std::string describe_exception(const CORBA::Exception& e) {
     const std::string name = e._name();
     if (name == "TRANSIENT") return "no process listens there";
     if (name == "TIMEOUT") return "no answer in time";
-    if (name == "OBJECT_NOT_EXIST") return "the object does not exist any more";
+    if (name == "OBJECT_NOT_EXIST") return "the object no longer exists";
     if (name == "NO_PERMISSION") return "its process does not permit it; the log there says why";
     if (name == "COMM_FAILURE") return "the connection was lost";
     return "CORBA exception " + name;

@@ -133,10 +133,11 @@ CORBA::Boolean refuse_strangers(omni::omniInterceptors::serverAcceptConnection_T
     connection.why = peer.is_on_this_machine ? "another user of this machine" : "another machine";
     if (auto& throttle = access().refused_connections; throttle.should_log()) {
         Logger rtclog("access");
-        RTC_WARN(("refused a connection (%llu so far): it is of %s; %s of rtc.conf names %s who may connect",
-                  static_cast<unsigned long long>(throttle.count()), describe(peer).c_str(),
-                  peer.is_on_this_machine ? "corba.permitted_users" : "corba.permitted_hosts",
-                  peer.is_on_this_machine ? "users" : "machines"));
+        RTC_WARN(
+            ("refused a connection (%llu so far): it comes from %s; %s of rtc.conf names %s who may connect",
+             static_cast<unsigned long long>(throttle.count()), describe(peer).c_str(),
+             peer.is_on_this_machine ? "corba.permitted_users" : "corba.permitted_hosts",
+             peer.is_on_this_machine ? "users" : "machines"));
     }
     return true;
 }

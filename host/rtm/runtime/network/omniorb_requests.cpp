@@ -3,7 +3,7 @@
 // definitions in this library first.
 //
 // GIOP_S_Holder is the request that a thread serves. If an exception that is not a CORBA exception ends a request before its
-// arguments are read, omniORB reports success and keeps the message: the thread serves it again, without end, also after
+// arguments are read, omniORB reports success and keeps the message: the thread serves it again, without end, even after
 // the peer has gone. Such exceptions are its own failed assertions (the object key "\0", an address of kind 1 or 2 in
 // GIOP 1.2) and the end of a fragmented request by a CancelRequest.
 //
@@ -109,7 +109,7 @@ class MessageHeader {
         return std::uint64_t{body} + sizeof bytes_;
     }
     const char* fault() const {
-        if (!has_magic()) return "it sent something else than GIOP";
+        if (!has_magic()) return "it sent something other than GIOP";
         if (size() > std::numeric_limits<CORBA::ULong>::max()) return "it announced a message of 4 GB";
         if (has_more_fragments() && size() % 8 != 0 && size() > omni::giopStream::bufferSize)
             return "it sent a fragment whose size is not a multiple of 8";

@@ -29,7 +29,7 @@ class CorbaPort::Provider::Object {
         reference_ = poa_->id_to_reference(id_.in());
     }
 
-    /// Valid as long as this object, also while it is not active.
+    /// Valid as long as this object, even while it is not active.
     CORBA::Object_ptr reference() const { return reference_.in(); }
     std::string publish() const {
         CORBA::String_var ior = Manager::instance().theORB()->object_to_string(reference_.in());

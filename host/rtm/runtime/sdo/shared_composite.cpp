@@ -197,7 +197,7 @@ bool PeriodicECOrganization::attachMember(RTC::RTObject_ptr member) {
     if (contexts.empty()) return refuse("the composite has no execution context");
     if (contains(joining, RTC::RTObject_var(m_rtobj->getObjRef()).in()))
         return refuse("the composite is one of its members");
-    if (has_member(*this, member)) return refuse("it is a member already");
+    if (has_member(*this, member)) return refuse("it is already a member");
     runOwnContexts(member, false);
     Configuration_var configuration = member->get_configuration();
     configuration->add_organization(Organization_var(getObjRef()).in());

@@ -51,7 +51,7 @@ void ToolLink::send(const char* operation, Arguments arguments) {
         if (std::exchange(has_dropped_, true)) return;
     }
     Logger rtclog("tools");
-    RTC_WARN(("%s takes messages more slowly than they arise: some are not sent", name_.c_str()));
+    RTC_WARN(("%s takes messages more slowly than they are produced: some are not sent", name_.c_str()));
 }
 
 void ToolLink::run() {

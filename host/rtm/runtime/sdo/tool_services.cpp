@@ -28,7 +28,7 @@ bool ToolService::init(RTObject_impl& component, const SDOPackage::ServiceProfil
     };
     if (++links > max_links_of_process) {
         --links;
-        return refuse("tools observe this process 512 times already");
+        return refuse("this process already has 512 observers");
     }
     link_ = std::make_unique<ToolLink>(profile_.service.in(), name, periodic(settings));
     try {

@@ -60,7 +60,7 @@ LiveStick::LiveStick(const std::string& path, Role role) {
         fail_stick(path, "cannot be opened");
     }
     if (region_.get_size() != sizeof(LiveStickFile))
-        throw InputError("live stick " + path + ": has another size than a live stick");
+        throw InputError("live stick " + path + ": does not have the size of a live stick");
     file_ = static_cast<LiveStickFile*>(region_.get_address());
     if (writes) std::memcpy(file_->magic, stick_magic, sizeof stick_magic);
 }

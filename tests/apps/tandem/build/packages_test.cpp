@@ -90,11 +90,11 @@ TEST_CASE("a remedy that the build already uses is not advised again") {
           "libode-dev is installed and has no ode/old.h: the source needs another version of the library");
     CHECK(remedy(undefined("dWorldCreate")) == "--pkg-config ode");
     CHECK_THAT(remedy(undefined("dWorldCreate"), {"ode"}),
-               Catch::StartsWith("ode is used already and does not define it") &&
+               Catch::StartsWith("ode is already used and does not define it") &&
                    Catch::Contains("--source FILE"));
     CHECK(remedy(undefined("boost::thread::join()")) == "-l boost_thread");
     CHECK_THAT(remedy(undefined("boost::thread::join()"), {}, {"boost_thread"}),
-               Catch::StartsWith("boost_thread is used already"));
+               Catch::StartsWith("boost_thread is already used"));
     CHECK_THAT(remedy("/usr/bin/ld: cannot find -lode: No such file or directory"),
                Catch::StartsWith("libode-dev is installed and has no libode.so"));
 }

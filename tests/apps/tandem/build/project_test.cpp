@@ -31,7 +31,7 @@ SelectedSources select(const fs::path& folder, CMakeProjects& projects, const So
 
 } // namespace
 
-TEST_CASE("branches of a CMakeLists.txt for other platforms are skipped, also where they set variables") {
+TEST_CASE("branches of a CMakeLists.txt for other platforms are skipped, even if they set variables") {
     const Folder folder;
     folder.write("CMakeLists.txt",
                  "option(FAST \"moves fast (default)\" ON)\noption(SLOW \"moves slowly\" OFF)\n"
@@ -49,8 +49,8 @@ TEST_CASE("branches of a CMakeLists.txt for other platforms are skipped, also wh
     CHECK(lists.targets[0].words == Names{"Arm", "SHARED", "posix.cpp", "joint1.cpp", "joint2.cpp"});
 }
 
-TEST_CASE(
-    "macros of a project that add libraries are expanded, also from the folder above and included files") {
+TEST_CASE("macros of a project that add libraries are expanded, including those of the folder above and of "
+          "included files") {
     const Folder folder;
     fs::create_directories(folder.path() / ".git");
     folder.write("cmake/rtc.cmake", "function(add_rtc_library name)\n  add_library(${name} SHARED ${ARGN})\n"
@@ -68,7 +68,7 @@ TEST_CASE(
     CHECK(targets[2].words == Names{"Hand", "Hand.cpp"}); // of a macro that is not here
 }
 
-TEST_CASE("a macro that calls itself and a file that includes itself are not followed for ever") {
+TEST_CASE("a macro that calls itself and a file that includes itself are not followed forever") {
     const Folder folder;
     folder.write("CMakeLists.txt",
                  "add_library(Arm Arm.cpp)\nmacro(again)\n  again()\n  again()\nendmacro()\nagain()\n"
@@ -77,7 +77,7 @@ TEST_CASE("a macro that calls itself and a file that includes itself are not fol
     CHECK_FALSE(read_cmake_lists(folder.path()).targets.empty());
 }
 
-TEST_CASE("blocks within blocks and variables within variables are not followed for ever") {
+TEST_CASE("blocks within blocks and variables within variables are not followed forever") {
     const Folder folder;
     std::string text = "add_library(Arm Arm.cpp)\nset(a xxxxxxxxxxxxxxxx)\n";
     for (int i = 0; i < 6; ++i) text += "set(a ${a}${a}${a}${a}${a}${a}${a}${a})\n";
@@ -178,7 +178,7 @@ TEST_CASE("libraries and folders of a project may have blanks and quotes in thei
     CHECK(target.library_dirs == std::vector<fs::path>{top / "lib of arms"});
 }
 
-TEST_CASE("a standard is that of the project, also by the name of its draft, and none is older than C++11") {
+TEST_CASE("the C++ standard is the project's, even if named by its draft, and at least C++11") {
     const Folder folder;
     folder.write("Arm.cpp", module_text);
     for (const auto& [option, standard] :
@@ -213,7 +213,7 @@ TEST_CASE("a project's own FindOpenRTM.cmake and missing templates do not keep i
     CHECK(fs::exists(target.include_dirs[0] / "joints.h"));
 }
 
-TEST_CASE("a kept folder serves another project, too") {
+TEST_CASE("a kept folder can be reused for another project") {
     const Folder folder, other;
     for (const auto* each : {&folder, &other}) {
         each->write("CMakeLists.txt", "project(arms CXX)\nadd_library(Arm MODULE Arm.cpp)\n");

@@ -169,7 +169,8 @@ TEST_CASE("a component of a census that opens a window of Qt needs no display") 
     CHECK(result.exit_code == 0);
 }
 
-TEST_CASE("copies of a profile are one component of a census, also those in a workspace's common folder") {
+TEST_CASE(
+    "copies of a profile are one component of a census, including those in a workspace's common folder") {
     const Folder folder;
     write_opros(folder, "One", "");
     write_opros(folder, "Two", "");
@@ -196,7 +197,8 @@ TEST_CASE("copies of a profile are one component of a census, also those in a wo
     CHECK(census["profiles_without_source"] == 0);
 }
 
-TEST_CASE("a census without components is an error, and one in which all run ends with exit code 0") {
+TEST_CASE("a census without components is an error, and a census in which all components run ends with exit "
+          "code 0") {
     const Folder folder;
     folder.write("shelf/readme.txt", "");
     const auto none = tandem_program({"rtm", "census", folder.path() / "shelf"});

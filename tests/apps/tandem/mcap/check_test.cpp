@@ -69,7 +69,7 @@ TEST_CASE("a file written by Tandem has no errors and no warnings") {
 TEST_CASE("each flipped bit is an error") {
     const Bytes whole = sample(20, {.library = "test", .chunk_size = 300});
     std::size_t unnoticed = 0;
-    for (std::size_t bit = 8 * 34; bit < whole.size() * 8; bit += 5) { // behind the header
+    for (std::size_t bit = 8 * 34; bit < whole.size() * 8; bit += 5) { // after the header
         Bytes damaged = whole;
         damaged[bit / 8] ^= std::byte(1U << (bit % 8));
         CAPTURE(bit);

@@ -88,7 +88,7 @@ TEST_CASE("a new file has its name at once, the mode of the user, and nothing be
     CHECK(folder.files() == 1);
 }
 
-TEST_CASE("a file that can be made again has its name only when it is complete") {
+TEST_CASE("a file that can be recreated gets its name only when it is complete") {
     const Folder folder;
     {
         FileSink sink(folder.path / "part.mcap", NewFile::Named::when_complete);
@@ -122,7 +122,7 @@ TEST_CASE("a second writer of a file is refused, and the first one continues") {
     CHECK(folder.files() == 1);
 }
 
-TEST_CASE("a name that another program takes meanwhile is not replaced") {
+TEST_CASE("a file that another program creates under the same name is not replaced") {
     const Folder folder;
     const auto file = folder.path / "part.mcap";
     FileSink sink(file, NewFile::Named::when_complete);
@@ -132,7 +132,7 @@ TEST_CASE("a name that another program takes meanwhile is not replaced") {
     CHECK(content_of(file) == "another one");
 }
 
-TEST_CASE("a file is not made behind a symbolic link") {
+TEST_CASE("a file is not created through a symbolic link") {
     const Folder folder;
     fs::create_symlink(folder.path / "elsewhere", folder.path / "run.mcap");
     CHECK_THROWS_WITH(FileSink(folder.path / "run.mcap"), Catch::Contains("already exists"));
@@ -205,7 +205,7 @@ TEST_CASE("a writer without room for the end leaves whole records") {
     }
 }
 
-TEST_CASE("attachments and metadata behind the last chunk are dropped when there is no room") {
+TEST_CASE("attachments and metadata after the last chunk are dropped when there is no room") {
     FullSink sink;
     McapWriter writer(sink, {.library = "test"});
     const auto channel = writer.add_channel("topic", 0, "cdr");

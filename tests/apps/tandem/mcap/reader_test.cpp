@@ -124,7 +124,7 @@ TEST_CASE("a file truncated anywhere is read up to its last complete chunk, or u
 
 TEST_CASE("a flipped bit costs the messages around it and produces no wrong messages") {
     const std::size_t step =
-        tandem::test::stress(1) > 1 ? 3 : 11; // in any case each bit of a byte, and each byte of a record
+        tandem::test::stress(1) > 1 ? 3 : 11; // flips every bit position, in every byte of a record
     for (const auto compression : all_compressions) {
         const Bytes whole = sample(60, {.library = "test", .compression = compression, .chunk_size = 1000});
         const TemporaryFile file;

@@ -85,7 +85,7 @@ TEST_CASE("messages allocate no memory after the first full chunk") {
     }
 }
 
-TEST_CASE("a write error is one line that names file and cause, and is permanent") {
+TEST_CASE("a write error is reported in one line that names file and cause, and is permanent") {
     FileSink sink("/dev/full");
     McapWriter writer(sink, {.library = "test"});
     const auto channel = writer.add_channel("topic", 0, "cdr");

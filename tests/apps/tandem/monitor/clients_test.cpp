@@ -68,7 +68,7 @@ constexpr auto only_root = "only root can start processes of other users";
 
 } // namespace
 
-TEST_CASE("a user's WebSockets are bounded, and pages and metrics are served all the same") {
+TEST_CASE("the number of a user's WebSockets is limited, and pages and metrics are still served") {
     const Pair pair;
     RunningMonitor monitor(pair.link.name);
     auto pages = open_all(monitor);

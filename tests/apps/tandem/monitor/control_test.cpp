@@ -166,7 +166,8 @@ TEST_CASE("a recording of a link that does not exist is refused") {
     CHECK(state(monitor)["control"]["recording"] == "");
 }
 
-TEST_CASE("without names, all links that the monitor shows are recorded, also more than a request may name") {
+TEST_CASE("without names, all links that the monitor shows are recorded, even if they are more than a "
+          "request may name") {
     std::vector<std::unique_ptr<Pair>> pairs;
     std::vector<std::string> names;
     for (int i = 0; i < 17; ++i) names.push_back(pairs.emplace_back(std::make_unique<Pair>())->link.name);

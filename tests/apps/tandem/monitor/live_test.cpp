@@ -117,7 +117,7 @@ TEST_CASE("a side whose peer joins the next generation is gone until it returns"
     CHECK_FALSE(next_with(page, "well", 40).is_null());
 }
 
-TEST_CASE("a side that leaves cleanly has ended, also when its peer has joined the next generation") {
+TEST_CASE("a side that leaves cleanly has ended, even when its peer has joined the next generation") {
     const Link link;
     auto first = join(link, Side::first), second = join(link, Side::second);
     first->publish();

@@ -18,7 +18,7 @@ class Pattern {
     Pattern(const Pattern&) = delete;
     Pattern& operator=(const Pattern&) = delete;
 
-    /// The first match from there and its groups; `from` is set behind it. Nothing if there is none.
+    /// The first match from there and its groups; `from` is set past it. Nothing if there is none.
     std::vector<std::string> find(const std::string& text, std::size_t& from) const {
         std::vector<regmatch_t> found(compiled_.re_nsub + 1);
         found[0] = {static_cast<regoff_t>(from), static_cast<regoff_t>(text.size())};

@@ -57,7 +57,7 @@ TEST_CASE("a scan without time reads one link, keeps the others as they were, an
     CHECK(state.links[1].name == names[1]);
 }
 
-TEST_CASE("a stopped look ends without the ports") {
+TEST_CASE("a stopped scan ends without reading the ports") {
     const Pair pair;
     add_ports(*pair.first, {"left", "right"});
     const std::atomic<bool> stop = true;

@@ -143,7 +143,7 @@ TEST_CASE("a name of another site that leads to this machine gets nothing, at wh
         CHECK(get_with(monitor, "/api/state", "Host: " + (host + port) + "\r\n").status == 200);
 }
 
-TEST_CASE("the option --allow-host lets clients use further names, also for WebSockets") {
+TEST_CASE("the option --allow-host lets clients use further names, including for WebSockets") {
     const Pair pair;
     const RunningMonitor monitor(pair.link.name, {"--allow-host", "robot.local", "--allow-host", "10.0.0.9"});
     const std::string upgrade = "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"

@@ -107,7 +107,7 @@ TEST_CASE("a tick of a long period is not late after a second") {
     CHECK(hangs_after(reader, {130.5}));
 }
 
-TEST_CASE("a component that takes long for its activation hangs only when its host says so, too") {
+TEST_CASE("a component whose activation takes long is reported as hanging only when its host reports it") {
     const tandem::rt::OwnTickSlot slot("camera", 10'000'000);
     TickReader reader;
     slot->due_ns = 100 * second_ns;

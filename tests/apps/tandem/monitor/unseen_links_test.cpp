@@ -21,7 +21,8 @@ Verdict verdict_of(const std::vector<std::string>& links) { return judge(StateRe
 
 } // namespace
 
-TEST_CASE("a link that was asked for by name and does not exist is missing, beside others that are well") {
+TEST_CASE(
+    "a link that was requested by name and does not exist is reported as missing, along with healthy ones") {
     const Pair pair;
     pair.first->publish();
     pair.second->publish();

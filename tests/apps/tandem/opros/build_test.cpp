@@ -229,7 +229,7 @@ TEST_CASE("an impossible build is reported in one line with the profile's line, 
     CHECK_THAT(last_line({old}), Catch::Contains("Old.xml:4: not well-formed XML"));
 }
 
-TEST_CASE("the file that --profile names is relative to the current folder, as others are") {
+TEST_CASE("a relative path for --profile is resolved against the current folder, like other paths") {
     const Folder folder;
     folder.component("One/Second", "Second.dll");
     folder.component("One/Third", "Third.dll");
@@ -295,11 +295,11 @@ TEST_CASE("the profile of a component may be in the folder above its sources") {
     CHECK_THAT(error_of({folder.path() / "One/src"}), Catch::Contains("no C++ source"));
     CHECK_THAT(error_of({folder.path() / "Two"}), Catch::Contains("no C++ source"));
     CHECK_THAT(error_of({folder.path() / "Three"}),
-               Catch::Contains("no component profile")); // only that of Two
+               Catch::Contains("no component profile")); // the one in the folder above is Two's
 }
 
 // In the style of OPRoS's vision components: OpenCV's C API of 2010.
-TEST_CASE("the old headers of OpenCV are found where OpenCV 4 is, and its package is named where it is not") {
+TEST_CASE("the old headers of OpenCV are found if OpenCV 4 is installed; otherwise its package is named") {
     const Folder folder;
     folder.write(
         "Eye/Eye.cpp",
@@ -330,7 +330,7 @@ TEST_CASE("the old headers of OpenCV are found where OpenCV 4 is, and its packag
     fs::current_path(here);
     INFO(info.errors);
     CHECK(info.exit_code == 0);
-    // With the header of OpenCV 2 and 3 that had the C API as well, also before cv.h.
+    // With the header of OpenCV 2 and 3 that had the C API as well, even before cv.h.
     folder.write("Eye/Eye.cpp", "#include <Component.h>\n#include <opencv2/opencv.hpp>\n"
                                 "class Eye : public Component {\n  IplImage* image;\n};\n"
                                 "#include <opencv/cv.h>\nint gray() { return CV_GRAY2RGB; }\n"

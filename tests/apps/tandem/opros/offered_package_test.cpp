@@ -52,7 +52,7 @@ void write_program(const Folder& folder, const std::string& name, const std::str
 } // namespace
 
 TEST_CASE(
-    "in a terminal, tandem build offers to install the package that a component lacks, and goes on with it") {
+    "in a terminal, tandem build offers to install the package that a component lacks, and then continues") {
     const Folder folder;
     tandem::test::old_component(folder, "");
     folder.write("Old/Gain.h", "#include <miniupnpc/miniupnpc.h>\n");

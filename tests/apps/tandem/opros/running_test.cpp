@@ -98,8 +98,8 @@ TEST_CASE("a component of several hosts is named with its host") {
 
 TEST_CASE("a name that no running component has is refused in one line", "[alone]") {
     const OwnRuntimeFolder runtime;
-    CHECK_THAT(opros({"list"}).errors, Contains("no opros_host of this user runs"));
-    CHECK_THAT(opros({"info", "M"}).errors, Contains("no opros_host of this user runs"));
+    CHECK_THAT(opros({"list"}).errors, Contains("no opros_host of this user is running"));
+    CHECK_THAT(opros({"info", "M"}).errors, Contains("no opros_host of this user is running"));
     Host host;
     const Result unknown = opros({"recover", "N"});
     CHECK(unknown.exit_code == 1);

@@ -115,8 +115,8 @@ TEST_CASE("an RT-Component is built from a sub-folder with the IDL files above i
     CHECK(built.output == dir + "/Hello.so\n");
 }
 
-TEST_CASE(
-    "an RT-Component is built with IDL files in sub-folders, also ones that only other IDL files include") {
+TEST_CASE("an RT-Component is built with IDL files in sub-folders, including those that only other IDL files "
+          "include") {
     const Folder folder;
     const std::string words =
         "#pragma prefix \"example.org\"\nmodule pack { typedef sequence<string> Words; };\n";
@@ -224,7 +224,7 @@ TEST_CASE("a source whose main() is disabled by a macro is built, and one with a
 }
 
 // Two components in the style of the first templates, whose function has the same name in each; what one of their
-// libraries hands to its own manager is no module, nor is what only a header declares.
+// libraries hands to its own manager is not a module, nor is what only a header declares.
 TEST_CASE("each of several modules in a folder is built from its own sources") {
     const Folder folder;
     const std::string dir = folder.path() / "Rtc";

@@ -93,7 +93,7 @@ TEST_CASE("a component made by tandem rtm new builds with find_package and with 
     fs::remove(arm + "/Arm.so");
     fs::remove_all(arm + "/build");
 
-    // A tree of which a part is built may lack the libraries that few components need.
+    // A partly built tree may lack the libraries that few components need.
     for (const std::string library : {"Camera", "Manipulator"})
         fs::remove(tree.moved + "/" LIBDIR "/librtm" + library + "2.so");
     CHECK(run(tree.bin + "tandem rtm build " + arm) == arm + "/Arm.so\n");

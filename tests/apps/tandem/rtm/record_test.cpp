@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// tandem rtm record: OutPorts of a host that is behind no link.
+// tandem rtm record: OutPorts of a host that is not behind a link.
 #include "host/process/child_process.hpp"
 #include "tests/apps/tandem/program.hpp"
 #include "tests/host/rtm/remote_host.hpp"

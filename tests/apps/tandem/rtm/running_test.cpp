@@ -265,7 +265,7 @@ TEST_CASE("tandem rtm cat reconnects if the port silently drops its connection")
     CHECK(result.output_contains("\"data\":"));
 }
 
-TEST_CASE("tandem rtm disconnect warns where the reader's host may crash") {
+TEST_CASE("tandem rtm disconnect warns if the reader's host may crash") {
     Running host("ForeignReader,Counter,Reporter");
     REQUIRE(host.other.host.wait_for_output("ready\n"));
     auto disconnect = [&](const std::string& reader) {
@@ -307,7 +307,7 @@ TEST_CASE(
     CHECK(other.host.wait_for_output("uses step 8\n"));
 }
 
-TEST_CASE("tandem rtm conf warns of a lost number where the host accepts any text") {
+TEST_CASE("tandem rtm conf warns of a lost number if the host accepts any text") {
     Running host("ConfigurationUser", {"manager.components.preactivation:ConfigurationUser0"});
     REQUIRE(host.other.host.wait_for_output("ready\n"));
     const std::vector<std::string> conf = {"conf", "ConfigurationUser0"};
@@ -320,7 +320,7 @@ TEST_CASE("tandem rtm conf warns of a lost number where the host accepts any tex
     CHECK(host.good(with("level=abc")).errors ==
           "tandem: warning: level=abc replaces 5: if level is a number, the component now uses its default, "
           "because its host does not check values\n");
-    CHECK(host.good(with("level=def")).errors.empty()); // it was no number, so far as can be seen
+    CHECK(host.good(with("level=def")).errors.empty()); // as far as can be seen, it was not a number
     CHECK(host.failed(with("size=abc")) ==
           "tandem: size=abc was not set: size has type int, so the component would use its default\n");
     CHECK(host.good(conf).output_contains("size=3"));

@@ -62,7 +62,7 @@ void run_and_kill(const std::function<void()>& part) {
 
 } // namespace
 
-TEST_CASE("a new system appears as a whole, also after a command that was killed") {
+TEST_CASE("a new system appears only as a whole, even if the command was killed") {
     const Folder folder;
     const fs::path robot = folder.path / "robot";
     run_and_kill([&] {
@@ -85,7 +85,7 @@ TEST_CASE("a system is added to a folder with other files, and to none with the 
     const Folder folder;
     write(folder.path / "run.log", "log");
     write(folder.path / "opros/a.xml", "old");
-    fs::create_directories(folder.path / "rtm"); // an empty one is no side
+    fs::create_directories(folder.path / "rtm"); // an empty folder is not a side
     {
         StagedFolder staged(folder.path);
         CHECK_THROWS_WITH(staged.add_side("opros"),
@@ -96,7 +96,7 @@ TEST_CASE("a system is added to a folder with other files, and to none with the 
     CHECK(folder.files() == std::set<std::string>{"run.log: log", "opros/a.xml: old", "rtm/rtc.conf: new"});
 }
 
-TEST_CASE("a command that fails leaves nothing, and two do not write one folder") {
+TEST_CASE("a command that fails leaves nothing, and two commands do not write the same folder") {
     const Folder folder;
     {
         StagedFolder staged(folder.path / "robot");

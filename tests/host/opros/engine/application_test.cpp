@@ -222,7 +222,7 @@ TEST_CASE("with strict a component that fails ends the application") {
     CHECK_THROWS_WITH(run(), Catch::Contains("M.xml:3: library 'missing.dll' not found"));
 }
 
-TEST_CASE("an application of which no component can start ends") {
+TEST_CASE("an application ends if none of its components can start") {
     const Folder folder;
     folder.component("M", "maker", "<type>passive</type>", trouble("start fails"));
     Application application(folder.application(Folder::sub("M", "M.xml")), test_options(folder));

@@ -98,7 +98,7 @@ TEST_CASE("a dependency on a composite is one on each of its components") {
     CHECK(flat.dependencies[1].target == "P");
 }
 
-TEST_CASE("a wrong composite is one line with file and line") {
+TEST_CASE("a wrong composite is reported in one line with file and line") {
     const Folder folder;
     arm(folder);
     const auto connected = [&](const std::string& type, const std::string& port) {

@@ -13,7 +13,7 @@ std::filesystem::path sensing(const Folder& folder, const std::string& device) {
 }
 } // namespace
 
-TEST_CASE("a component opens a user's device library that lies where component libraries may lie") {
+TEST_CASE("a component opens a user's device library in each folder for component libraries") {
     const Folder folder;
     // The first is beside the profile, the others are on the plugin path.
     const std::string device = GENERATE("Beside.dll", "own_device", "own_device.dll", "libown_device.so");

@@ -12,7 +12,8 @@ using tandem::engine::Application;
 
 namespace {
 
-/// The profile of M, a maker, and W, which has the directory. W is listed last and would be initialized first.
+/// Writes an application of M, which the test makes fail, and W, a Watcher with the directory. W is listed last and
+/// would be initialized first.
 std::filesystem::path watched(const Folder& folder, const std::string& trouble,
                               const std::string& type = "<type>passive</type>") {
     folder.component("M", "maker.dll", type, "<property name=\"trouble\">" + trouble + "</property>");

@@ -75,7 +75,7 @@ TEST_CASE("a profile in 16 or 32 bits is read with or without a byte order mark"
     CHECK(name_in("\xEF\xBB\xBF" + text) == "C");
 }
 
-TEST_CASE("a profile that declares a wrong encoding is read all the same") {
+TEST_CASE("a profile that declares a wrong encoding is still read") {
     CHECK(name_in(profile(declaring("euc-kr"), "é")) == "é");
     CHECK(name_in(profile(declaring("UTF-16"))) == "C");
     CHECK(name_in(profile(declaring("no-such-encoding"), "C\xFF")) == "C?");

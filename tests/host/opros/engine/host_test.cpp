@@ -138,7 +138,7 @@ TEST_CASE("the host accepts all its options") {
     CHECK(host.exit_code() == 0);
 }
 
-TEST_CASE("bad input is one line on standard error and exit code 1") {
+TEST_CASE("bad input is reported in one line on standard error, with exit code 1") {
     const Folder folder;
     Process host({OPROS_HOST, one_component(folder, "nothing.dll")});
     CHECK(host.exit_code() == 1);
@@ -255,7 +255,7 @@ TEST_CASE("a host whose component hangs in the set-up can be ended") {
     CHECK_THAT(host.output, Catch::Contains("onInitialize of component M does not return within 0.1 s"));
 }
 
-TEST_CASE("a host says which callback it waits for when one is slow and goes on when it has returned") {
+TEST_CASE("a host says which slow callback it waits for, and continues when the callback has returned") {
     const Folder folder;
     Process host(
         {OPROS_HOST, "--plugin-path", FIXTURES, one_component(folder, "maker", "start and stop are slow")});
@@ -335,7 +335,7 @@ TEST_CASE("a library that has not been built is named with the command that buil
                                 Catch::Contains("; tandem opros build " + arm + " builds it\n"));
 }
 
-TEST_CASE("mistakes in properties are lines when the host starts") {
+TEST_CASE("mistakes in properties are reported when the host starts") {
     const Folder folder;
     folder.component("M", "maker", "<type>periodic</type><period>10</period>",
                      "<property name=\"Size\" type=\"int\">three</property>");

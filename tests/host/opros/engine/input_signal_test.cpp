@@ -25,7 +25,7 @@ TEST_CASE("arrivals before the wait count as one") {
     CHECK_FALSE(signal.wait_for(0ns));
 }
 
-TEST_CASE("no arrival is lost beside a wait that begins, ends or runs out") {
+TEST_CASE("no arrival is lost while a wait begins, ends or times out") {
     InputSignal signal;
     constexpr int threads = 2, arrivals = 20000;
     std::array<std::atomic<int>, threads> sent{};
@@ -149,7 +149,7 @@ TEST_CASE("an executor whose waiter refuses sleeps on its own word, and asks aga
     signal.withdrawWaiter(&waiter);
 }
 
-TEST_CASE("a waiter that was withdrawn is not in use any more, and arrivals are noticed without it") {
+TEST_CASE("a waiter that was withdrawn is no longer in use, and arrivals are noticed without it") {
     InputSignal signal;
     CountingExecutor executor(signal);
     for (int i = 0; i < 100; ++i) {
@@ -168,7 +168,7 @@ TEST_CASE("a waiter that was withdrawn is not in use any more, and arrivals are 
     }
 }
 
-TEST_CASE("no arrival is lost beside a waiter that is lent and withdrawn") {
+TEST_CASE("no arrival is lost while a waiter is lent and withdrawn") {
     InputSignal signal;
     LentWaiter waiter;
     std::atomic<int> sent{0};

@@ -239,7 +239,7 @@ TEST_CASE("the link of a node has the node's name, however long that of the appl
     CHECK(node_link(part) == "_a-left");
 }
 
-TEST_CASE("a connection may send the newest value only, and nothing else than `new` selects that") {
+TEST_CASE("a connection may send the newest value only, and only `new` selects that") {
     const Folder folder;
     const auto connection = [&](const std::string& subscription) {
         std::string text = Folder::connect("data", "M", "numbers", "P", "numbers");

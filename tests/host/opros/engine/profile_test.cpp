@@ -215,7 +215,7 @@ TEST_CASE("components start last listed first, but never before those they depen
     profile.dependencies = {{{}, "C", "A"}};
     CHECK(start_order(profile) == std::vector<std::string>{"B", "A", "C"});
     profile.dependencies.push_back({{}, "A", "C"});
-    CHECK_THAT(error_of([&] { start_order(profile); }), Catch::Contains("in a circle"));
+    CHECK_THAT(error_of([&] { start_order(profile); }), Catch::Contains("circular dependency"));
 }
 
 TEST_CASE("a component profile is found in every layout in use") {
@@ -235,7 +235,7 @@ TEST_CASE("a component profile in another case is found unless there is one in t
     CHECK(find_component_profile(profile, profile.subcomponents[0], {}) == folder.path() / "Arm.xml");
 }
 
-TEST_CASE("a component profile that is nowhere is an error in the line that asks for it") {
+TEST_CASE("a component profile that is not found is an error at the line that refers to it") {
     const Folder folder;
     const auto profile = read_application_profile(folder.application(Folder::sub("A", "A.xml")));
     CHECK_THAT(error_of([&] { find_component_profile(profile, profile.subcomponents[0], {"/plugins"}); }),

@@ -44,7 +44,7 @@ TEST_CASE("a value with a decimal point is a number, whatever locale a component
     CHECK(check(folder, property("name=\"Gain\" type=\"double\"", "0.5")).empty());
 }
 
-TEST_CASE("values that components of OPRoS have are of their types") {
+TEST_CASE("the property values of OPRoS's own components fit their types") {
     const Folder folder;
     CHECK(check(folder, property("name=\"X0\" type=\"double\"", " 0.0 ") +
                             property("name=\"X\" type=\"int\"", "-50.0") +
@@ -57,7 +57,7 @@ TEST_CASE("values that components of OPRoS have are of their types") {
               .empty());
 }
 
-TEST_CASE("an empty value is only a text") {
+TEST_CASE("an empty value is valid only as text") {
     const Folder folder;
     CHECK(check(folder, property("name=\"E\" type=\"int\"", "") +
                             property("name=\"D\" type=\"double\"", " ") +
@@ -78,7 +78,7 @@ TEST_CASE("a value that is not the text of its property is named") {
             "M.xml:7: property B has its value in <value>, expected <property name=\"B\">VALUE</property>"});
 }
 
-TEST_CASE("an element that is repeated or in another place is named with what counts") {
+TEST_CASE("a repeated or misplaced element is reported, with the one that counts") {
     const Folder folder;
     CHECK(check(folder, property("name=\"A\"", "1") + property("name=\"A\"", "2") +
                             "</properties><properties>\n" + property("name=\"C\"", "1") + "</properties>\n" +

@@ -68,7 +68,7 @@ TEST_CASE("LIFO gives out the newest value first and loses none") {
     CHECK(drain(port) == std::vector<int>{3, 2, 1});
 }
 
-TEST_CASE("UFIFO grows, also when it has wrapped around") {
+TEST_CASE("UFIFO grows, even after it has wrapped around") {
     InputDataPort<int> port(OPROS_UFIFO, 2);
     int value = 0;
     port.push(++value);

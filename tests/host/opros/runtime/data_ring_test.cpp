@@ -136,7 +136,7 @@ TEST_CASE("reset empties a ring of any depth, and a port may accept an empty val
     CHECK(popped->empty());
 }
 
-TEST_CASE("a push to several readers copies the value once for each, and reading copies it not at all") {
+TEST_CASE("a push to several readers copies the value once for each, and reading does not copy it") {
     constexpr std::size_t readers = 16;
     OutputDataPort<Counted> out;
     std::vector<std::unique_ptr<InputDataPort<Counted>>> ports;
@@ -174,7 +174,7 @@ TEST_CASE("a peeked value of a FIFO stays the next one until it is too old") {
     CHECK(drain(port) == std::vector<int>{2, 3});
 }
 
-TEST_CASE("short and long vectors of a FIFO come whole and in order, also when peeked at or dropped") {
+TEST_CASE("short and long vectors of a FIFO arrive whole and in order, even if peeked at or dropped") {
     InputDataPort<Values> port(OPROS_FIFO, 4);
     const auto vector = [](std::size_t size) { return Values(size, static_cast<double>(size)); };
     const auto push = [&](std::size_t size) {

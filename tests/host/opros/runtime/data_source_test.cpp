@@ -30,7 +30,7 @@ TEST_CASE("with LAST the consumer gets the newest value of a source, and the oth
     CHECK(port.pop() == nullptr);
 }
 
-TEST_CASE("a source is told how many values the queue holds, also when a profile replaces the queue") {
+TEST_CASE("a source is told how many values the queue holds, even if a profile replaces the queue") {
     struct : TestSource {
         void setDepth(std::size_t values) override { depth = values; }
         std::size_t depth = 99;

@@ -254,7 +254,7 @@ struct PlaceConnector : ServicePortConnector {
 
 } // namespace
 
-TEST_CASE("a connector gets the values where the caller has them, without an allocation, or copies") {
+TEST_CASE("a connector gets the caller's own values without an allocation, or copies") {
     MathRequired required;
     PlaceConnector connector;
     static_cast<RequiredMethodInterface&>(*required.getMethod("add")).Connect(&connector);

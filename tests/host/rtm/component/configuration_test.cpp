@@ -59,7 +59,7 @@ TEST_CASE("A change of configuration is seen by onExecute one cycle later, never
     CHECK_THROWS_AS(configuration->activate_configuration_set("none"), SDOPackage::InvalidParameter);
 }
 
-TEST_CASE("A value is refused by the type of the variable, but not where the component converts it itself") {
+TEST_CASE("A value is refused by the type of the variable, unless the component converts it itself") {
     struct Arm : Counter {
         explicit Arm(RTC::Manager* manager) : Counter(manager) {}
         RTC::ReturnCode_t onInitialize() override {
@@ -288,7 +288,7 @@ TEST_CASE("Strings are split, trimmed and converted as component sources expect"
     CHECK((coil::stringTo(b, "ON") && b));
 }
 
-TEST_CASE("The active set is what configuration.active_config says and what describes parameters is passed "
+TEST_CASE("The active set is that of configuration.active_config, and descriptions of parameters are passed "
           "through") {
     ManagerFixture fixture;
     auto& counter =

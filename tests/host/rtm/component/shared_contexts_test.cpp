@@ -51,7 +51,7 @@ std::vector<Member*> members(ManagerFixture& fixture, int count) {
 
 } // namespace
 
-TEST_CASE("Contexts that share threads run, count and stop as those with separate threads") {
+TEST_CASE("Contexts that share threads run, count and stop like those with separate threads") {
     ManagerFixture fixture(false);
     const auto all = members(fixture, 30);
     for (auto* each : all) REQUIRE(each->activate(0) == RTC::RTC_OK);

@@ -74,7 +74,7 @@ class Host {
 
 } // namespace
 
-TEST_CASE("Values and types within some others are read and those within many are refused") {
+TEST_CASE("Values and types of moderate nesting are read, and deeply nested ones are refused") {
     Host host;
     CHECK(host.reply_status(nested_any(1)) == 0);
     CHECK(host.reply_status(nested_any(10)) == 0);

@@ -97,7 +97,7 @@ TEST_CASE("A message that omniORB cannot read ends its connection and leaves no 
     CHECK_FALSE(manager->is_master());
 }
 
-TEST_CASE("Many such messages cost neither threads nor memory") {
+TEST_CASE("Many messages that omniORB cannot read cost neither threads nor memory") {
     RemoteHost other("Counter", unused_port(), {"logger.enable:NO"});
     REQUIRE(other.host.wait_for_output("ready\n"));
     const auto messages = messages_that_omniorb_cannot_read();
@@ -118,7 +118,7 @@ TEST_CASE("Many such messages cost neither threads nor memory") {
     CHECK(other.host.memory_mb() < memory + 60);
 }
 
-TEST_CASE("Hundreds of idle connections do not raise the number of threads, and calls go on") {
+TEST_CASE("Hundreds of idle connections do not raise the number of threads, and calls continue") {
     RemoteHost other("Counter");
     REQUIRE(other.host.wait_for_output("ready\n"));
     ManagerFixture fixture;

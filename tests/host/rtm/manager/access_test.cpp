@@ -96,14 +96,14 @@ Bytes two_way(const std::string& key, const std::string& operation, const Call& 
 // A request that expects no answer; its sender closes the connection at once.
 Bytes one_way(const std::string& key, const std::string& operation) {
     Bytes message = request(key, operation, {}, 2, false);
-    message[12 + 4] = 0; // response flags of GIOP 1.2, behind the header and the request id
+    message[12 + 4] = 0; // response flags of GIOP 1.2, after the header and the request id
     return message;
 }
 
 } // namespace
 
 TEST_CASE(
-    "A manager that was asked for no TCP port opens none, and this user's processes reach it all the same") {
+    "A manager that was asked for no TCP port opens none, and this user's processes can still reach it") {
     HostProcess host(without_tcp());
     REQUIRE(host.wait_for_output("ready\n"));
     CHECK(open_port_count(host.pid()) == 0);
@@ -133,7 +133,7 @@ TEST_CASE("A manager opens the TCP port that its settings ask for") {
     CHECK(host.wait_for_error("open by TCP at "));
 }
 
-TEST_CASE("The socket of a manager lies in a folder that other users cannot enter") {
+TEST_CASE("The socket of a manager is in a folder that other users cannot enter") {
     HostProcess host(without_tcp());
     REQUIRE(host.wait_for_output("ready\n"));
     const auto socket = socket_of(host.pid());
@@ -152,8 +152,8 @@ TEST_CASE("The socket of a manager lies in a folder that other users cannot ente
     CHECK((error == -1 || error == EACCES));
 }
 
-TEST_CASE("The socket of a killed manager accepts no connection, also while a helper lives that one of its "
-          "components has forked") {
+TEST_CASE("The socket of a killed manager accepts no connection, even while a helper forked by one of its "
+          "components lives") {
     auto arguments = without_tcp();
     arguments.insert(arguments.end(), {"-o", "manager.components.precreate:HelperForker", "-o",
                                        "manager.components.preactivation:HelperForker0"});

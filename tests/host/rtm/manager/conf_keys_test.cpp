@@ -59,9 +59,8 @@ TEST_CASE("An unknown key is named with file, line and the nearest known key") {
     CHECK_THAT(lines[2], Contains(":4: unknown key rate"));
 }
 
-TEST_CASE(
-    "Misspelt keys and wrong values of one kind of execution context, or of one, are reported like those of "
-    "all are") {
+TEST_CASE("Misspelt keys and wrong values of one kind of execution context, or of a single one, are reported "
+          "like those of all") {
     using Catch::Contains;
     const auto lines =
         check_text("ec.PeriodicExecutionContext.rate: 100\nec.PeriodicExecutionContext.rte: 100\n"

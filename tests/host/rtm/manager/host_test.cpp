@@ -95,9 +95,8 @@ TEST_CASE("An invalid rate prevents its component from being created") {
                Contains("component Counter0 cannot be started: " + key + " is " + rate));
 }
 
-TEST_CASE(
-    "A mistake in the settings of one component is one line with what was probably meant, with and without "
-    "a log") {
+TEST_CASE("A mistake in the settings of one component is reported in one line with what was probably meant, "
+          "with and without a log") {
     const std::string log = GENERATE("", "logger.enable: NO\n", "logger.log_level: ERROR\n");
     CAPTURE(log);
     Folder folder;

@@ -80,7 +80,7 @@ TEST_CASE(
     fixture.manager().getLogStreamBuf().removeStream(&lines);
 }
 
-TEST_CASE("A component whose onInitialize does not return is said to hang, which is logged once more") {
+TEST_CASE("A component whose onInitialize has not returned after 16 s is reported as hanging") {
     const RTC::ComponentBeingCreated slow("slow", {"slow", "SlowDevice", "onInitialize", 15.8});
     const RTC::ComponentBeingCreated hangs("slow", {"slow", "SlowDevice", "onInitialize", 16});
     CHECK(slow.what() == std::string("slow is still being created: onInitialize has taken 15.8 s so far"));
@@ -107,7 +107,7 @@ TEST_CASE("A lost connection is logged once and the line names the port once") {
     fixture.manager().getLogStreamBuf().removeStream(&lines);
 }
 
-TEST_CASE("Finding components by any address does not call what a manager of OpenRTM-aist does not survive") {
+TEST_CASE("Finding components by any address makes no call that crashes a manager of OpenRTM-aist") {
     RemoteHost other("FragileHost,Counter,Reporter", unused_port(), {"manager.corba_servant:NO"});
     REQUIRE(other.host.wait_for_output("ready\n"));
     ManagerFixture fixture(false, {short_check_interval});

@@ -124,7 +124,7 @@ TEST_CASE("Ports that do not fit are refused with both types, and nothing stays 
     counter.removePort(real);
 }
 
-TEST_CASE("Disconnecting tells both sides, and writing goes on without the receiver") {
+TEST_CASE("Disconnecting notifies both sides, and writing continues without the receiver") {
     ManagerFixture fixture;
     auto& counter = fixture.create<Counter>("Counter");
     auto& accumulator = fixture.create<Accumulator>("Accumulator");
@@ -232,7 +232,7 @@ TEST_CASE("Listeners hear values or bytes, in the 2.x and the 1.x form, and may 
     CHECK(accumulator.value_.data == 105);
 }
 
-TEST_CASE("A timestamp policy puts the time in, and the writer's variable stays as it was") {
+TEST_CASE("A timestamp policy sets the time of the message, and the writer's variable is unchanged") {
     const std::string policy = GENERATE("on_write", "on_send", "on_received", "on_read");
     static ManagerFixture fixture;
     static auto& counter = fixture.create<Counter>("Counter");
@@ -259,7 +259,8 @@ TEST_CASE("The subscription type new delivers from a separate thread") {
     CHECK(accumulator.value_.data == 9);
 }
 
-TEST_CASE("A publisher delivers nothing more once a delivery has lost the connection, though messages wait") {
+TEST_CASE(
+    "A publisher delivers nothing more once a delivery has lost the connection, even if messages wait") {
     const std::string type = GENERATE("new", "periodic");
     coil::Properties properties;
     properties.setProperty("subscription_type", type);

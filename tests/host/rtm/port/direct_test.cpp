@@ -186,7 +186,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("An OutPort may have direct connections beside others") {
+TEST_CASE("An OutPort may have direct and other connections at the same time") {
     ManagerFixture fixture;
     auto& counter = fixture.create<Counter>("Counter");
     auto& a = fixture.create<Accumulator>("Accumulator");
@@ -251,7 +251,7 @@ TEST_CASE("A long sequence of a direct connection is copied once, into memory th
         CHECK(picture.tm.nsec == number);
         places.insert(ports.received.data.get_buffer());
     }
-    CHECK(places.size() == 2); // the memory of the variable and of the buffer in turn
+    CHECK(places.size() == 2); // the memory of the variable and of the buffer, alternately
 
     for (CORBA::Octet number = 21; number <= 24; ++number) write_picture(ports, number);
     for (CORBA::Octet number = 21; number <= 24; ++number) CHECK(read_picture(ports).data[0] == number);
@@ -271,7 +271,7 @@ TEST_CASE("While only a listener uses long values, a direct connection keeps the
     ports.in.addConnectorDataListener(RTC::ON_RECEIVED, received);
     ports.sent.data.length(picture_bytes);
     for (CORBA::Octet number = 1; number <= 20; ++number) write_picture(ports, number);
-    CHECK(places.size() == 2); // the memory of the listener and of the buffer in turn
+    CHECK(places.size() == 2); // the memory of the listener and of the buffer, alternately
     CHECK(read_picture(ports).data[0] == 20);
     CHECK_FALSE(ports.in.isNew());
     for (CORBA::Octet number = 21; number <= 24; ++number) write_picture(ports, number);
@@ -301,7 +301,7 @@ TEST_CASE("A variable whose memory is not its own gets a copy of a long value") 
     CHECK(ports.received.data.get_buffer() == own.data());
 }
 
-TEST_CASE("Pixels of a picture are exchanged with all else copied") {
+TEST_CASE("The pixels of a picture are swapped, and everything else is copied") {
     RTC::CameraImage image{}, taken{};
     image.tm = {5, 6};
     image.width = 300, image.height = 100, image.bpp = 24, image.fDiv = 0.5;
@@ -330,7 +330,7 @@ Value copy_of(const Value& value, Value into = {}) {
 
 } // namespace
 
-TEST_CASE("Bytes are copied whatever the distance of their addresses") {
+TEST_CASE("Bytes are copied whatever the distance between their addresses") {
     tandem::test::check_copies(RTC::copyBytes);
 }
 

@@ -131,7 +131,7 @@ struct ImagePorts {
 
 } // namespace
 
-TEST_CASE("Long messages are made and read in place, the first of a row excepted, and short ones as always") {
+TEST_CASE("Long messages are encoded and read in place, except the first in a row, and short ones as usual") {
     ImagePorts ports;
     ports.connect();
     const CORBA::ULong sizes[] = {100, 50'000, 60'000, 50'000, 100, 200, 50'000, 70'000};
@@ -254,7 +254,7 @@ TEST_CASE("A second connection of an OutPort gets long messages as well") {
     ports.rtc.removePort(second);
 }
 
-TEST_CASE("A long message that is none of the type is an error of the reading port") {
+TEST_CASE("A long message that does not fit the port's type is an error of the reading port") {
     ImagePorts ports;
     ports.connect();
     RTC::ByteData garbage;

@@ -93,7 +93,7 @@ RTC::ByteData message(int number) {
 
 } // namespace
 
-TEST_CASE("A newest value does not wait for the answer to one before") {
+TEST_CASE("A newest value does not wait for the answer to an earlier one") {
     HeldPush held;
     held.begin_calls(3);
     CHECK(held.calls->begun == std::vector<std::uint64_t>{1, 2, 3});
@@ -120,7 +120,7 @@ TEST_CASE("Of several calls the answer to the newest value counts") {
     CHECK(held.write() == RTC::DataPortStatus::SEND_FULL);
 }
 
-TEST_CASE("A receiver that is gone by one of several calls stays so") {
+TEST_CASE("A receiver that one of several calls finds gone stays gone") {
     HeldPush held;
     held.begin_calls(2);
     held.calls->answer(1, RTC::DataPortStatus::CONNECTION_LOST);

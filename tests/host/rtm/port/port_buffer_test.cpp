@@ -35,7 +35,7 @@ coil::Properties properties(const std::string& full_policy, const std::string& e
     return prop;
 }
 
-/// Does the same with both buffers and compares what they return.
+/// Runs each operation on both buffers and compares the results.
 struct Both {
     explicit Both(const coil::Properties& prop) {
         ours.init(prop);
@@ -250,7 +250,7 @@ TEST_CASE("Messages that are encoded in a port's buffer are those of the seriali
     check_encoding(RTC::TimedPose2D{{1, 2}, {{3, 4}, 5}});
 }
 
-TEST_CASE("A port's buffer decodes messages of the other byte order, and says if one is none of the type") {
+TEST_CASE("A port's buffer decodes messages of the other byte order, and reports one that does not fit the type") {
     RTC::PortBuffer buffer;
     RTC::CORBA_CdrSerializer<RTC::TimedDoubleSeq> stream;
     stream.isLittleEndian(false);

@@ -72,7 +72,7 @@ struct ListenedConnection {
 
 } // namespace
 
-TEST_CASE("A flush connection tells of sending and receiving, and of what the buffer does") {
+TEST_CASE("A flush connection reports sending and receiving, and what the buffer does") {
     const std::string interface = GENERATE("corba_cdr", "direct");
     static ManagerFixture fixture;
     CAPTURE(interface);
@@ -97,7 +97,7 @@ TEST_CASE("A flush connection tells of sending and receiving, and of what the bu
     CHECK(connection.take() == EventNames{"ON_DISCONNECT ", "ON_DISCONNECT "});
 }
 
-TEST_CASE("A buffer that overwrites or times out says so") {
+TEST_CASE("A buffer that overwrites or times out reports it") {
     const std::string interface = GENERATE("corba_cdr", "direct");
     static ManagerFixture fixture;
     CAPTURE(interface);
@@ -136,7 +136,7 @@ TEST_CASE("A buffer that overwrites or times out says so") {
     CHECK(connection.take()[1] == "ON_BUFFER_READ_TIMEOUT ");
 }
 
-TEST_CASE("A pull connection tells of its buffer on the sending side") {
+TEST_CASE("A pull connection reports the events of its buffer on the sending side") {
     ManagerFixture fixture;
     ListenedConnection connection(fixture, "dataflow_type=pull&buffer.read.empty_policy=do_nothing");
     connection.take();
@@ -148,7 +148,7 @@ TEST_CASE("A pull connection tells of its buffer on the sending side") {
     CHECK(connection.take()[0] == "ON_BUFFER_EMPTY ON_SENDER_EMPTY ");
 }
 
-TEST_CASE("A pull connection tells of each value that it overwrites, and of no other") {
+TEST_CASE("A pull connection reports each value that it overwrites, and no other") {
     static ManagerFixture fixture;
     const std::string policy = GENERATE("overwrite", "do_nothing");
     CAPTURE(policy);
@@ -163,7 +163,7 @@ TEST_CASE("A pull connection tells of each value that it overwrites, and of no o
 }
 
 // The receiver takes a message only when the first look at its buffer is past: the publisher's own buffer fills up.
-TEST_CASE("A subscription to new data tells the sender of each message that it overwrites, and of no other") {
+TEST_CASE("A subscription to new data reports to the sender each message that it overwrites, and no other") {
     static ManagerFixture fixture;
     const std::string policy = GENERATE("overwrite", "do_nothing");
     CAPTURE(policy);

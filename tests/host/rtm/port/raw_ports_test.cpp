@@ -83,8 +83,8 @@ TEST_CASE("Raw ports of a type known at run time exchange the bytes with typed p
     counter.removePort(out);
 }
 
-TEST_CASE(
-    "A connector that names a buffer type gets its own buffer from the factory, beside the shared one") {
+TEST_CASE("A connector that names a buffer type gets its own buffer from the factory, in addition to the "
+          "shared one") {
     ManagerFixture fixture;
     RTC::CdrBufferFactory::instance().addFactory("bridge", coil::Creator<RTC::CdrBufferBase, BridgeBuffer>,
                                                  coil::Destructor<RTC::CdrBufferBase, BridgeBuffer>);

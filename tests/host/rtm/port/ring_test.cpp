@@ -156,7 +156,7 @@ TEST_CASE("The segment of a connection has no name once both ends are there") {
     CHECK_FALSE(reader.read().has_value());
 }
 
-TEST_CASE("Where /dev/shm has no room messages go by calls, and none is lost") {
+TEST_CASE("If /dev/shm is full, messages go by calls, and none is lost") {
     if (!tandem::shm::test::enter_small_shm()) TANDEM_SKIP("this user may not mount a /dev/shm of his own");
     RingConnection connection;
     connection.put(1);
@@ -175,7 +175,7 @@ TEST_CASE("Where /dev/shm has no room messages go by calls, and none is lost") {
     CHECK(connection.read_all() == numbers_up_to(4));
 }
 
-TEST_CASE("A ring that is not there is refused in one line, and leaves no file") {
+TEST_CASE("A ring that does not exist is refused in one line, and leaves no file") {
     CHECK_THROWS_AS(RTC::MessageRingReader("rtm-messages-of-nobody"), tandem::shm::Error);
     CHECK(files_of("rtm-messages-of-nobody").empty());
 }
@@ -186,7 +186,7 @@ TEST_CASE("A ring under a name that a sender does not give is refused before its
                           Catch::Contains("': not a name of a segment for messages"));
 }
 
-TEST_CASE("A ring that the other process has damaged gives nothing more") {
+TEST_CASE("A ring that the other process has damaged delivers no more messages") {
     RTC::MessageRingWriter writer;
     RTC::MessageRingReader reader(writer.link());
     reader.accept_messages(true);

@@ -42,7 +42,7 @@ TEST_CASE("Connections are found and ended by name and by id and by the other po
     CHECK(util::disconnect_all("Nobody0.in") == RTC::BAD_PARAMETER);
 }
 
-TEST_CASE("Rates and participants and parameters of a component are at hand") {
+TEST_CASE("Helper functions give the rates, participants and parameters of a component") {
     ManagerFixture fixture;
     auto& counter = fixture.create<Counter>("Counter");
     auto& accumulator = fixture.create<Accumulator>("Accumulator");

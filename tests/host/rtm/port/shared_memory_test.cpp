@@ -90,7 +90,7 @@ TEST_CASE("A shared memory object that a peer has broken is refused") {
     CHECK_FALSE(reader.read(received, true));
 }
 
-TEST_CASE("Only objects that are named as OpenRTM-aist's are opened and removed") {
+TEST_CASE("Only objects that are named like OpenRTM-aist's are opened and removed") {
     RawObject foreign("data of another program", "test-" + std::to_string(getpid()));
     SharedMessageReader reader;
     for (const std::string& name :

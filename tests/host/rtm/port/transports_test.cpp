@@ -177,7 +177,7 @@ TEST_CASE("a registered pull transport fetches what waits at the OutPort") {
     CHECK(live_endpoints == 0);
 }
 
-TEST_CASE("a transport of which one end is missing refuses the connection and says which") {
+TEST_CASE("a connection is refused if one end lacks its transport, and the error names that end") {
     register_transport<RTC::InPortConsumer, TestInPortConsumer>();
     ManagerFixture fixture;
     fixture.create<Counter>("Counter");

@@ -20,7 +20,7 @@ struct Outcome {
 
 struct Effort {
     Settings settings;
-    std::size_t executions = 1'000'000'000; ///< at most; of a search: it is incomplete then
+    std::size_t executions = 1'000'000'000; ///< limit; a search that reaches it is incomplete
     std::optional<std::uint64_t> seed;      ///< random executions instead of all
     const Mutation* mutation = nullptr;
     AccessLog* log = nullptr;

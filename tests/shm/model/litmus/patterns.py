@@ -94,7 +94,7 @@ DOORBELL = [
              [store("owner", ASLEEP), fence(), load("commit_read", "commit", "acquire")]],
             lambda r, m: r["owner_read"] == POLLING and r["commit_read"] == 0,
             spare=[(0, 0), (1, 2)], owner=POLLING),
-    pattern("an owner that takes a bit sees the message, also if the bit was set before",
+    pattern("an owner that takes a bit sees the message, even if the bit was set before",
             "BasicDoorbell::set(), take_all()",
             [[store("commit", 1, "release"), exchange("old", "ready", 1, "seq_cst")],
              [exchange("bits", "ready", 0, "acquire"), load("commit_read", "commit", "acquire"), load("ready_read", "ready")]],

@@ -36,7 +36,7 @@ class DoorbellWorld {
         }
     }
 
-    /// Does the same, and watches the data.
+    /// Waits like wait(), but by a condition on the data instead of bits.
     void look(unsigned ports = all) {
         while (count_ < std::min(ports, ports_)) look_once(for_ever);
     }

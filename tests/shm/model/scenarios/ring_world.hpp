@@ -47,7 +47,7 @@ class RingWorld {
         count(accepted, bytes);
         return accepted;
     }
-    /// Does the same in two steps, with less than was reserved. Before it, another reservation is abandoned.
+    /// Writes a message by reserve() and commit(), with less than was reserved. First abandons another reservation.
     bool write_reserved(std::size_t reserved, std::size_t bytes) {
         using Reservation = typename RingProducer<A>::Reservation;
         ++tried_;

@@ -6,7 +6,7 @@ async function loadElk() {
   try {
     await import('../lib/elk-api.js');
   } catch {
-    throw new Error('elkjs is not there; build Tandem where npm can install it');
+    throw new Error('elkjs is missing; build Tandem where npm can install it');
   }
   return new globalThis.ELK({workerUrl: new URL('../lib/elk-worker.min.js', import.meta.url).href});
 }

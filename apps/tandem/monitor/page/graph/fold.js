@@ -4,9 +4,9 @@
 import {groupsOf} from './groups.js';
 import {hasDetail} from './topology.js';
 
-/** With more components than this, those hosts begin folded that have more than a few. */
+/** With more components than this, hosts with more than a few are initially folded. */
 const mostComponents = 60, fewComponents = 10;
-/** Components with more ports than this begin folded, and with many ports in all of them those with more than a few. */
+/** Components with more ports than this are initially folded; with many ports in all, those with more than a few. */
 const mostPorts = 40, manyPorts = 320, fewPorts = 8;
 /** So many failed and found components of a folded host are drawn. */
 const mostApart = 20;

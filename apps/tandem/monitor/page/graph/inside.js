@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Adds to the graph what hosts list of themselves: components without a link, their ports, and the connections inside hosts and
-// between them that are no links.
+// between them that are not links.
 import {groupsOf} from './groups.js';
 
 /** The ports of these components are mirrors, which the graph shows beside the link. */

@@ -246,7 +246,7 @@ BufferStatus PortBuffer::writeInPlace(const Marshal& marshal) {
 /// Encodes and publishes the message; in a rehearsal only encodes it. Returns false if it cannot be encoded.
 bool PortBuffer::publish_encoded(const Marshal& marshal, bool& dropped) {
     const auto& numbers = marshal.numbers();
-    // The value of a rehearsal is short, also at a port for long ones.
+    // The value of a rehearsal is short, even at a port for long ones.
     const bool is_long = rehearsing() && ring_->next().getBuffer() != nullptr;
     if (!is_long && are_block(numbers) && encoded_bytes(numbers) <= Ring::Content::max_size) {
         std::array<unsigned char, Ring::Content::max_size> bytes;
@@ -272,7 +272,7 @@ void PortBuffer::rehearse_write(const Marshal& marshal) {
     publish_encoded(marshal, dropped);
 }
 
-/// Returns EMPTY if there is no message, also if threads wait for one.
+/// Returns EMPTY if there is no message, even if threads wait for one.
 template <class Decode>
 inline BufferStatus PortBuffer::try_take(Turn& turn, const Decode& decode) {
     const ShortLock lock(read_mutex_);

@@ -23,10 +23,10 @@ struct CallSegment {
     tandem::shm::CallQueueHandle calls;
 };
 
-/// Creates the segment of that link, for its caller. Throws tandem::shm::Error, also if /dev/shm is full.
+/// Creates the segment of that link, for its caller. Throws tandem::shm::Error, for example if /dev/shm is full.
 CallSegment create_call_segment(const std::string& link);
-/// Opens the segment that the caller has created. Throws tandem::shm::Error, also if there is no such link on this
-/// machine, or the name is not one of a segment for calls.
+/// Opens the segment that the caller has created. Throws tandem::shm::Error, for example if there is no such link on
+/// this machine, or if the name is not one of a segment for calls.
 CallSegment open_call_segment(const std::string& link);
 
 /// A request is, in CDR of this machine's byte order: whether it is oneway (ULong), the calling thread (ULongLong), the

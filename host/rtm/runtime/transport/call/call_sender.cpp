@@ -116,7 +116,7 @@ bool CallSender::call(omniCallDescriptor& call) {
     case shm::CallStatus::peer_died:
         is_over_ = true;
         throw CORBA::COMM_FAILURE(omni::COMM_FAILURE_WaitingForReply, CORBA::COMPLETED_MAYBE);
-    default: // the results find no memory, or the other process has damaged the segment
+    default: // there is no memory for the results, or the other process has damaged the segment
         throw CORBA::NO_RESOURCES(0, CORBA::COMPLETED_MAYBE);
     }
 }

@@ -38,7 +38,7 @@ tandem::shm::JoinOptions writer_options() {
     return options;
 }
 
-// The name comes from the other process. join() would create a missing segment, also under the name of another link.
+// The name comes from the other process. join() would create a missing segment, even under the name of another link.
 const std::string& require_prefix(const std::string& link) {
     if (!link.starts_with(ring_link_prefix))
         throw Error("link '" + link + "': not a name of a segment for messages");

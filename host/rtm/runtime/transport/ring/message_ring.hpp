@@ -31,7 +31,7 @@ class MessageRingWriter {
     /// answers.
     static constexpr std::chrono::milliseconds max_unread{100};
 
-    /// Creates the segment of a new link. Throws tandem::shm::Error, also if /dev/shm is full.
+    /// Creates the segment of a new link. Throws tandem::shm::Error, for example if /dev/shm is full.
     MessageRingWriter();
     ~MessageRingWriter();
 
@@ -72,7 +72,7 @@ class MessageRingWriter {
 /// The reading end. [one thread at a time]
 class MessageRingReader {
   public:
-    /// Throws tandem::shm::Error, also if there is no such link on this machine.
+    /// Throws tandem::shm::Error, for example if there is no such link on this machine.
     explicit MessageRingReader(const std::string& link);
     ~MessageRingReader();
 
@@ -84,7 +84,7 @@ class MessageRingReader {
     void accept_messages(bool accept);
     /// Returns the oldest message, valid until the next call; empty if there is none.
     std::optional<std::span<const std::byte>> read();
-    /// Returns whether the other process has damaged the ring. No more messages arrive then.
+    /// Returns whether the other process has damaged the ring. If so, no more messages arrive.
     bool is_corrupt() const;
     /// Returns the segment, for a MessageServer.
     const std::shared_ptr<tandem::shm::Segment>& segment() const { return segment_; }

@@ -37,7 +37,7 @@ struct MessageServer::State {
             } catch (const CORBA::Exception& error) {
                 log_exception(error._name());
             } catch (...) { // a listener is a user's code and may throw any type
-                log_exception("an exception of another type than std::exception");
+                log_exception("an exception that is not a std::exception");
             }
         }
     }

@@ -111,7 +111,7 @@ test("the wheelchair is seen from above and moves", async () => {
   assert.match(await text("#chair-stick"), /stick/);
 });
 
-test("pictures of every view, also in the dark and on a phone", async () => {
+test("pictures of every view, including in dark mode and on a phone", async () => {
   await verdictIsFine();
   await page.waitForFunction(() => / (0\.[4-9]|1\.)\d* m\/s/.test(document.querySelector("#chair-state").textContent)); // it drives
   const views = ["graph", "links", "ticks", "plots", "chair", "events"];

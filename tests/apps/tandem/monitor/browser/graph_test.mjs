@@ -59,7 +59,7 @@ async function during(name, action) {
   console.log(`${name}: ${["Task", "Script", "Layout"].map((of) => `${of} ${(after[`${of}Duration`] - before[`${of}Duration`]).toFixed(0)} ms`).join(", ")}`);
 }
 
-test("the hosts of 1,000 components begin folded, and show what has failed", async () => {
+test("the hosts of 1,000 components are initially folded, and show what has failed", async () => {
   assert.deepEqual((await names()).sort(), ["249 more components", "250 components", "250 components", "250 components", "Comp2x77"]);
   assert.equal(await page.locator("#graph .component.failed").count(), 1);
   const places = await page.locator("#graph .host > rect:first-child").evaluateAll((boxes) => boxes.map((box) => box.getBoundingClientRect().toJSON()));

@@ -54,7 +54,7 @@ test("every message of the port is plotted", async () => {
   numbers.forEach((number, i) => assert.ok(i === 0 || number === numbers[i - 1] + 1, `${number} after ${numbers[i - 1]}`));
 });
 
-test("numbers of another port are added by name, also by dragging, and removed", async () => {
+test("numbers of another port are added by name or by dragging, and removed", async () => {
   await page.locator("#member-filter").fill("joystickPos");
   await page.getByRole("button", { name: "numbers of joystickPos" }).click();
   const member = (name) => page.locator("#member-tree ul button", { hasText: name });

@@ -45,7 +45,7 @@ test("a host with several links says which link a component's ports are in", asy
   assert.ok(names.includes(`Plant0, link ${name}-0`) && names.includes(`Plant0, mirrored, link ${name}-1`), names.join());
 });
 
-test("pictures of what cannot be connected, also as colour-blind people see it", async () => {
+test("pictures of what cannot be connected, including as colour-blind people see it", async () => {
   await page.screenshot({ path: join(pictures, "refused.png") });
   await page.locator("#graph-section").screenshot({ path: join(pictures, "refused-graph.png") });
   const tools = await page.context().newCDPSession(page);

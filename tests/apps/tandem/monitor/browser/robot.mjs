@@ -80,7 +80,7 @@ export async function startBrowser(requests) {
     if (url) await page.goto(url);
     return page;
   };
-  /** As if the machine with the browser were switched off: nothing of it says goodbye. */
+  /** As if the machine with the browser were switched off: the connection is not closed. */
   const kill = () => server.kill();
   return { open, kill, close: () => server.close() };
 }

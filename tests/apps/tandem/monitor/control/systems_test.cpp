@@ -143,7 +143,7 @@ TEST_CASE("the end of a run that fails is in the state, and its log says why") {
                Catch::Contains("Nothing"));
 }
 
-TEST_CASE("a log that is a pipe or a link holds nothing up and is not written") {
+TEST_CASE("a log that is a pipe or a link blocks nothing and is not written") {
     const SystemsFolder folder;
     folder.add("robot");
     const fs::path log = folder.path / "robot/run.log";

@@ -91,7 +91,7 @@ TEST_CASE("the times of messages are the sender's, whatever its clock shows") {
     CHECK(clock.time_of(0) > first);
 }
 
-TEST_CASE("the times of messages go on when the clock of the machine is set") {
+TEST_CASE("the times of messages continue when the clock of the machine is set") {
     using tandem::monitor::ClockTimes;
     using tandem::wire::pack_time;
     for (const double set_ms : {-3'600'000.0, -1000.0, 3'600'000.0}) {

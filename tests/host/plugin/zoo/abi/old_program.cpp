@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A component's own program, as projects make one beside the library, from before Tandem was replaced. It has our number, too,
-// by the header by which each of ours leaves it, and declares what it calls: the others would take seconds to compile.
+// A component's own program, as projects build one beside the library, built before Tandem was updated. The header that each of
+// our headers includes stores the ABI number. This file declares what it calls: the other headers would take seconds to compile.
 #include "another_number.hpp"
 
 #include <rtm/TandemAbi.h>
