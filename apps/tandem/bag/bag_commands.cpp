@@ -15,15 +15,12 @@ struct BagFile {
 
 void add_info(CLI::App& bag, Action& selected) {
     auto options = std::make_shared<BagFile>();
-    CLI::App* command =
-        add_command(bag, "info", "Prints the contents of a recording and whether it is complete",
-                    "If the recorder was killed, the file is read up to its last complete record, and a line "
-                    "says what is missing.\n"
-                    "Rates are messages per second between the first and the last message of the file. DROPS "
-                    "is the number of\n"
-                    "messages missing between a topic's first and last message, or \"-\" if its messages are "
-                    "not numbered.\n"
-                    "Exit code 1 if the file is not an MCAP file, or incomplete or damaged.");
+    CLI::App* command = add_command(
+        bag, "info", "Prints the contents of a recording and whether it is complete",
+        R"(If the recorder was killed, the file is read up to its last complete record, and a line says what is missing.
+Rates are messages per second between the first and the last message of the file. DROPS is the number of
+messages missing between a topic's first and last message, or "-" if its messages are not numbered.
+Exit code 1 if the file is not an MCAP file, or incomplete or damaged.)");
     command->add_option("FILE", options->file, "recording, an MCAP file")->required();
     command->add_flag("--json", options->json, "print JSON instead of text");
     command->callback(
@@ -34,10 +31,10 @@ void add_cut(CLI::App& bag, Action& selected) {
     auto options = std::make_shared<BagCutOptions>();
     CLI::App* command = add_command(
         bag, "cut", "Writes a part of a recording to a new file",
-        "Times are seconds since the first message, or RFC 3339 timestamps (2026-11-23T08:15:00.5Z).\n"
-        "Messages at exactly these times are included. Attachments and metadata are copied.\n"
-        "To repair an incomplete recording, cut it without --from and --to.\n"
-        "Exit code 1 if a part of the recording cannot be read; the rest is written.");
+        R"(Times are seconds since the first message, or RFC 3339 timestamps (2026-11-23T08:15:00.5Z).
+Messages at exactly these times are included. Attachments and metadata are copied.
+To repair an incomplete recording, cut it without --from and --to.
+Exit code 1 if a part of the recording cannot be read; the rest is written.)");
     command->add_option("FILE", options->file, "recording, an MCAP file")->required();
     command->add_option("-o,--output", options->out, "file to write")->type_name("FILE")->required();
     command->add_option("--from", options->from, "time of the first message to keep (start of the file)")
@@ -53,12 +50,11 @@ void add_convert(CLI::App& bag, Action& selected) {
     auto options = std::make_shared<BagConvertOptions>();
     CLI::App* command = add_command(
         bag, "convert", "Converts the messages of a recording to CSV or JSON",
-        "Reads recordings made by tandem record. --json writes one line per message, in the order of "
-        "arrival.\n"
-        "--csv writes a table of one topic with one column per number and string (tm.sec, data[0]).\n"
-        "An existing file is replaced, unless it is a recording.\n"
-        "Exit code 1 if tandem record did not make the file, or if a part of it cannot be read; the rest is\n"
-        "converted.");
+        R"(Reads recordings made by tandem record. --json writes one line per message, in the order of arrival.
+--csv writes a table of one topic with one column per number and string (tm.sec, data[0]).
+An existing file is replaced, unless it is a recording.
+Exit code 1 if tandem record did not make the file, or if a part of it cannot be read; the rest is
+converted.)");
     command->add_option("FILE", options->file, "recording, an MCAP file")->required();
     auto* csv = command->add_flag("--csv", options->csv, "write a table of one topic");
     command->add_flag("--json", options->json, "write one line of JSON per message")->excludes(csv);
@@ -72,9 +68,9 @@ void add_bag_check(CLI::App& bag, Action& selected) {
     auto options = std::make_shared<BagFile>();
     CLI::App* command = add_command(
         bag, "check", "Checks a recording and prints each fault on one line",
-        "Reads the whole file. Checks every record, CRC, index and count against the MCAP specification and\n"
-        "the rules of mcap doctor. Warnings name content that some readers do not accept.\n"
-        "Exit code 1 if there is an error.");
+        R"(Reads the whole file. Checks every record, CRC, index and count against the MCAP specification and
+the rules of mcap doctor. Warnings name content that some readers do not accept.
+Exit code 1 if there is an error.)");
     command->add_option("FILE", options->file, "recording, an MCAP file")->required();
     command->callback([=, &selected] { selected = [options] { return bag_check(options->file); }; });
 }

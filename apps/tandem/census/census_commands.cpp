@@ -15,15 +15,12 @@ void add_census_command(CLI::App& parent, const CensusModel& model, const char* 
     CLI::App* command = add_command(
         parent, "census", "Builds, loads and runs every component below folders, and says what is missing",
         fmt::format(
-            "Finds {}. Builds each in a temporary folder, loads it, runs it\n"
-            "alone in a host, and prints a line with the first error and its remedy. Writes nothing into "
-            "the\n"
-            "folders. Child processes have no input, at most 4 GiB of memory each and files of at most 256 "
-            "MiB;\n"
-            "whatever a component leaves running is killed. Components run unchanged and may move hardware:\n"
-            "switch off the motors of connected robots first.\n"
-            "Exit code 0 if all components run, 2 if one does not, 1 if there is none or the census is "
-            "interrupted.",
+            R"(Finds {}. Builds each in a temporary folder, loads it, runs it
+alone in a host, and prints a line with the first error and its remedy. Writes nothing into the
+folders. Child processes have no input, at most 4 GiB of memory each and files of at most 256 MiB;
+whatever a component leaves running is killed. Components run unchanged and may move hardware:
+switch off the motors of connected robots first.
+Exit code 0 if all components run, 2 if one does not, 1 if there is none or the census is interrupted.)",
             what));
     command->add_option("DIR", options->folders, "folder with components in it or below (repeatable)")
         ->required();

@@ -199,17 +199,16 @@ void add_doctor_command(CLI::App& tandem, Action& selected) {
     CLI::App* command = tandem.add_subcommand(
         "doctor", "Checks this machine, and with DIR an application, and says how to fix what is wrong");
     command->footer(
-        "  ok       as it should be\n"
-        "  warning  works, but slower or less predictably, or fails in some cases, or is open to others\n"
-        "  error    Tandem does not run, or fails after some time\n"
-        "With DIR, a folder for tandem run, also checks whether its hosts can run: profiles, libraries,\n"
-        "properties and connections of the OPRoS components, RTCs, and links that other hosts use. "
-        "Components\n"
-        "are created in child processes. To see each port with its peer, run tandem link check DIR.\n"
-        "Also shows what the running hosts, managers and monitors of this user, their segments, and the\n"
-        "rtc.conf in DIR open to other users and other machines.\n"
-        "Run tandem doctor as the user who runs the hosts: it tests permissions in a child process. Changes\n"
-        "nothing. Exit code 1 if there is an error, otherwise 0.");
+        R"(  ok       as it should be
+  warning  works, but slower or less predictably, or fails in some cases, or is open to others
+  error    Tandem does not run, or fails after some time
+With DIR, a folder for tandem run, also checks whether its hosts can run: profiles, libraries,
+properties and connections of the OPRoS components, RTCs, and links that other hosts use. Components
+are created in child processes. To see each port with its peer, run tandem link check DIR.
+Also shows what the running hosts, managers and monitors of this user, their segments, and the
+rtc.conf in DIR open to other users and other machines.
+Run tandem doctor as the user who runs the hosts: it tests permissions in a child process. Changes
+nothing. Exit code 1 if there is an error, otherwise 0.)");
     auto json = std::make_shared<bool>(false);
     auto application = std::make_shared<FolderCheckOptions>();
     command->add_option("DIR", application->folder, "folder with opros/ and rtm/");

@@ -13,10 +13,9 @@ void add_idl_commands(CLI::App& tandem, Action& selected) {
     CLI::App* command = add_command(
         tandem, "idl2opros",
         "Writes the OPRoS service profile and port headers for the interfaces of an IDL file",
-        "For each interface I, writes IService.xml, II.h, IProvided.h and IRequired.h; writes the types to "
-        "FTypes.h.\n"
-        "Leaves out operations that have no counterpart in OPRoS and prints each with the reason.\n"
-        "Exit code 1 if the IDL has errors.");
+        R"(For each interface I, writes IService.xml, II.h, IProvided.h and IRequired.h; writes the types to FTypes.h.
+Leaves out operations that have no counterpart in OPRoS and prints each with the reason.
+Exit code 1 if the IDL has errors.)");
     command->add_option("FILE", to_opros->file, "IDL file")->required();
     command->add_option("-o,--output", to_opros->folder, "folder to write to (.)")->type_name("DIR");
     command->add_option("-I,--include", to_opros->include_dirs, "folder with included IDL files (repeatable)")
@@ -25,12 +24,11 @@ void add_idl_commands(CLI::App& tandem, Action& selected) {
     command->callback([=, &selected] { selected = [to_opros] { return idl2opros(*to_opros); }; });
 
     auto to_idl = std::make_shared<Opros2IdlOptions>();
-    command = add_command(tandem, "opros2idl", "Writes the IDL for the services of an OPRoS service profile",
-                          "Arguments passed by reference or pointer become inout. Non-blocking methods "
-                          "without a result become oneway.\n"
-                          "Exit code 1 if the profile is invalid, or if one of its types is neither a "
-                          "standard type nor defined in\n"
-                          "a data type profile.");
+    command = add_command(
+        tandem, "opros2idl", "Writes the IDL for the services of an OPRoS service profile",
+        R"(Arguments passed by reference or pointer become inout. Non-blocking methods without a result become oneway.
+Exit code 1 if the profile is invalid, or if one of its types is neither a standard type nor defined in
+a data type profile.)");
     command->add_option("FILE", to_idl->file, "service profile (XML)")->required();
     command->add_option("-o,--output", to_idl->output, "file to write (standard output)")->type_name("FILE");
     command->add_option("--types", to_idl->type_files, "data type profile (XML) (repeatable)")

@@ -24,11 +24,10 @@ void add_opros_import(CLI::App& opros, Action& selected) {
     auto options = std::make_shared<OprosImportOptions>();
     CLI::App* command = add_command(
         opros, "import", "Imports an installation of the OPRoS engine into a folder for tandem run",
-        "Reads system.xml if it exists, the application profile and the components' folders. Writes to "
-        "DIR/opros\n"
-        "the profile and those folders, without the libraries built for the engine. Does not change the\n"
-        "installation. Prints what to do before tandem run, and each difference in behaviour: where it is,\n"
-        "what the engine did, and what Tandem does instead.");
+        R"(Reads system.xml if it exists, the application profile and the components' folders. Writes to DIR/opros
+the profile and those folders, without the libraries built for the engine. Does not change the
+installation. Prints what to do before tandem run, and each difference in behaviour: where it is,
+what the engine did, and what Tandem does instead.)");
     add_import_options(command, *options, "ENGINE_DIR", "add an AdaptorComp with this link");
     command
         ->add_option("--app", options->application, "name or file of the application, if there are several")
@@ -40,11 +39,11 @@ void add_rtm_import(CLI::App& rtm, Action& selected) {
     auto options = std::make_shared<RtmImportOptions>();
     CLI::App* command =
         add_command(rtm, "import", "Imports an rtc.conf and an RTSystem profile into a folder for tandem run",
-                    "Reads rtc.conf (or rtcd.conf, conf/rtc_cpp.conf, conf/rtc.conf) of an installation of\n"
-                    "OpenRTM-aist, the configuration files that it names, and the profile written by\n"
-                    "RTSystemEditor if there is one. Writes DIR/rtm. Does not change the installation.\n"
-                    "Prints what to do before tandem run, and each difference in behaviour: where it is,\n"
-                    "what OpenRTM-aist did, and what Tandem does instead.");
+                    R"(Reads rtc.conf (or rtcd.conf, conf/rtc_cpp.conf, conf/rtc.conf) of an installation of
+OpenRTM-aist, the configuration files that it names, and the profile written by
+RTSystemEditor if there is one. Writes DIR/rtm. Does not change the installation.
+Prints what to do before tandem run, and each difference in behaviour: where it is,
+what OpenRTM-aist did, and what Tandem does instead.)");
     add_import_options(command, *options, "RTCD_DIR",
                        "add an InterceptorComp that shares all RTCs over this link");
     command->add_option("--rtc-conf", options->conf, "rtc.conf to read (the one in RTCD_DIR)")

@@ -12,15 +12,15 @@ void add_monitor_command(CLI::App& tandem, Action& selected) {
     CLI::App* command = add_command(
         tandem, "monitor",
         "Shows all running links in a browser, and serves metrics for Prometheus at /metrics",
-        "Reads the links' shared memory without notifying or delaying either host. Prints the address of\n"
-        "the page. There is no password: anyone who can reach the address can read names and values.\n"
-        "Foxglove and Lichtblick connect to ws://ADDRESS:PORT.\n"
-        "Without --control the monitor is read-only. With --control, the printed address contains a token.\n"
-        "Clients with the token can activate, connect and configure RT-Components, record, and drive the\n"
-        "wheelchair. With --systems they can also make systems of the built components in DIR, and run\n"
-        "them. Through Foxglove's protocol, at ws://ADDRESS:PORT/?token=..., they can also publish to ports\n"
-        "and call services.\n"
-        "Ends with Ctrl-C. Exit code 1 if it cannot listen at that address and port.");
+        R"(Reads the links' shared memory without notifying or delaying either host. Prints the address of
+the page. There is no password: anyone who can reach the address can read names and values.
+Foxglove and Lichtblick connect to ws://ADDRESS:PORT.
+Without --control the monitor is read-only. With --control, the printed address contains a token.
+Clients with the token can activate, connect and configure RT-Components, record, and drive the
+wheelchair. With --systems they can also make systems of the built components in DIR, and run
+them. Through Foxglove's protocol, at ws://ADDRESS:PORT/?token=..., they can also publish to ports
+and call services.
+Ends with Ctrl-C. Exit code 1 if it cannot listen at that address and port.)");
     command->add_option("LINK", options->links, "links to show, including links that do not exist yet (all)");
     command->add_option("--port", options->port, "TCP port; 0 selects a free one (8080)")
         ->check(CLI::Range(0, 65535))

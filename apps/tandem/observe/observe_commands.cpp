@@ -23,10 +23,9 @@ void add_echo(CLI::App& tandem, Action& selected) {
     CLI::App* command = add_command(
         tandem, "echo", "Prints the messages of a link with the names of their members",
         std::string(passive_help) +
-            "Prints one line of JSON per message. The line begins with the port's name unless one PORT was "
-            "given.\n"
-            "Messages overwritten before they were copied are counted on standard error.\n"
-            "Exit code 1 if the link or port does not exist, or if --timeout passes without a message.");
+            R"(Prints one line of JSON per message. The line begins with the port's name unless one PORT was given.
+Messages overwritten before they were copied are counted on standard error.
+Exit code 1 if the link or port does not exist, or if --timeout passes without a message.)");
     add_link_and_ports(command, options->link, options->ports);
     command->add_option("-n,--count", options->count, "end after N messages")->type_name("N");
     command->add_option("--timeout", options->timeout_s, "end when no message has arrived for this long")

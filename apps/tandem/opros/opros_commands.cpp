@@ -31,12 +31,12 @@ void add_info_and_check(CLI::App& opros, Action& selected) {
     auto options = std::make_shared<InspectOptions>();
     CLI::App* info = add_command(
         opros, "info", "Shows a component: ports with their types, services, properties, executor",
-        "FILE is a library, a profile, or the name of a running component (see tandem opros list), which is\n"
-        "shown with its state and connections. If there is a file of that name, write HOST/COMPONENT.\n"
-        "Creates the component in a child process and reports its crash or hang as an error. For a\n"
-        "composite, shows its components and the ports that it exports; for an application, its components\n"
-        "and connections; for a service type or data type, its methods or fields.\n"
-        "Exit code 1 if the component cannot be created, or if FILE is neither a library nor a profile.");
+        R"(FILE is a library, a profile, or the name of a running component (see tandem opros list), which is
+shown with its state and connections. If there is a file of that name, write HOST/COMPONENT.
+Creates the component in a child process and reports its crash or hang as an error. For a
+composite, shows its components and the ports that it exports; for an application, its components
+and connections; for a service type or data type, its methods or fields.
+Exit code 1 if the component cannot be created, or if FILE is neither a library nor a profile.)");
     add_inspect_options(info, *options, "component library (X.so), profile (X.xml) or running component");
     info->callback([=, &selected] {
         selected = [options] {
@@ -48,9 +48,9 @@ void add_info_and_check(CLI::App& opros, Action& selected) {
     });
     CLI::App* check = add_command(
         opros, "check", "Checks an application: libraries, ports, types of connected ports",
-        "Prints each error on one line: file, line, what is wrong, what was expected. Lines that begin\n"
-        "with 'note:' show differences that do not keep the application from running.\n"
-        "Exit code 1 if there is an error.");
+        R"(Prints each error on one line: file, line, what is wrong, what was expected. Lines that begin
+with 'note:' show differences that do not keep the application from running.
+Exit code 1 if there is an error.)");
     add_inspect_options(check, *options, "application profile (XML)");
     check
         ->add_option("--rtc-conf", options->rtc_conf,
@@ -74,10 +74,10 @@ void add_opros_build(CLI::App& opros, Action& selected) {
     auto options = std::make_shared<OprosBuildOptions>();
     CLI::App* command = add_command(
         opros, "build", "Builds a component from the sources in its folder",
-        "Builds the sources in DIR and DIR/src, or those that its CMakeLists.txt, makefile or Visual C++\n"
-        "project lists. If DIR has a CMake project, configures it, which executes its CMake code. The\n"
-        "component profile in DIR, DIR/profile or the folder above gives the plugin its name. Writes the\n"
-        "plugin beside the profile and changes nothing else. Exit code 1 if the build fails.");
+        R"(Builds the sources in DIR and DIR/src, or those that its CMakeLists.txt, makefile or Visual C++
+project lists. If DIR has a CMake project, configures it, which executes its CMake code. The
+component profile in DIR, DIR/profile or the folder above gives the plugin its name. Writes the
+plugin beside the profile and changes nothing else. Exit code 1 if the build fails.)");
     add_build_options(command, *options,
                       "folder for the plugin and its profiles (the folder of the profile)");
     command

@@ -13,17 +13,17 @@ void add_replay_command(CLI::App& tandem, Action& selected) {
     auto options = std::make_shared<ReplayOptions>();
     CLI::App* command = add_command(
         tandem, "replay", "Replays a recording in place of one of the hosts of a system",
-        "Joins the recorded links as the absent host, with that host's ports. Sends the messages that the\n"
-        "host sent, repeats its calls, and answers calls as recorded. When the replay ends, the other host\n"
-        "sees its peer disappear and reacts as to any lost host.\n"
-        "With --lockstep, also starts the other hosts from DIR (as made for tandem run DIR or by\n"
-        "wheelchair --keep DIR) and runs their cycles one after the other: in the recorded order if the\n"
-        "recording was made with --lockstep --record, otherwise by their periods. A recording made with\n"
-        "--lockstep --record reproduces the same bytes.\n"
-        "--check compares each answer with the recorded one and prints the first difference with its tick\n"
-        "and member.\n"
-        "Exit code 1 if an answer differs, --check has nothing to compare, a recorded type has changed, a\n"
-        "part of the recording cannot be read, or no host is running that receives the replay.");
+        R"(Joins the recorded links as the absent host, with that host's ports. Sends the messages that the
+host sent, repeats its calls, and answers calls as recorded. When the replay ends, the other host
+sees its peer disappear and reacts as to any lost host.
+With --lockstep, also starts the other hosts from DIR (as made for tandem run DIR or by
+wheelchair --keep DIR) and runs their cycles one after the other: in the recorded order if the
+recording was made with --lockstep --record, otherwise by their periods. A recording made with
+--lockstep --record reproduces the same bytes.
+--check compares each answer with the recorded one and prints the first difference with its tick
+and member.
+Exit code 1 if an answer differs, --check has nothing to compare, a recorded type has changed, a
+part of the recording cannot be read, or no host is running that receives the replay.)");
     command->add_option("FILE", options->file, "recording made by tandem record")->required();
     command
         ->add_option(

@@ -11,16 +11,13 @@ namespace tandem::command {
 
 void add_run_command(CLI::App& tandem, Action& selected) {
     auto options = std::make_shared<RunOptions>();
-    CLI::App* command =
-        add_command(tandem, "run", "Runs the two hosts of an application until Ctrl-C",
-                    "Starts opros_host with the application profile in DIR/opros, and rtm_host with "
-                    "DIR/rtm/rtc.conf. Each\n"
-                    "runs in that folder. Prints the output of both hosts with the host's name before each "
-                    "line. When one\n"
-                    "host ends, ends the other. If output cannot be written, for example on a full disk, the "
-                    "hosts continue,\n"
-                    "and a line says how many lines are missing.\n"
-                    "Exit code 0 if all hosts ended normally, 1 if one failed or was killed.");
+    CLI::App* command = add_command(
+        tandem, "run", "Runs the two hosts of an application until Ctrl-C",
+        R"(Starts opros_host with the application profile in DIR/opros, and rtm_host with DIR/rtm/rtc.conf. Each
+runs in that folder. Prints the output of both hosts with the host's name before each line. When one
+host ends, ends the other. If output cannot be written, for example on a full disk, the hosts continue,
+and a line says how many lines are missing.
+Exit code 0 if all hosts ended normally, 1 if one failed or was killed.)");
     command->add_option("DIR", options->folder, "folder with opros/ and rtm/; one of them may be missing")
         ->required();
     command->add_option("--restart", options->restart, "restart each host that dies, up to N times (0)")

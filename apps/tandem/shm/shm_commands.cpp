@@ -18,48 +18,47 @@ constexpr CommandHelp shm_help{
     "Inspects segments of shared memory, even while their hosts run, and removes stale ones",
     "A segment is the file in /dev/shm through which the two hosts of a link communicate. list, info and\n"
     "stats are read-only, take no lock and wake no thread. They are safe to use on a running robot."};
-constexpr CommandHelp list_help{
-    "Lists all segments: link, generation, size, owner, both sides, age",
-    "States of the two sides of a segment:\n"
-    "  absent   has not joined this generation yet\n"
-    "  alive    has joined\n"
-    "  stopped  has joined, but a signal or a debugger has stopped its process\n"
-    "  dead     has left or died; the pid is that of the previous process\n"
-    "  held     the segment cannot be read, and a running process has joined it\n"
-    "`pid N of another namespace`: the process runs in another container, and N is its pid there.\n"
-    "Segments of other users are listed but not opened. Damaged segments are listed with the reason.\n"
-    "Exit code 0."};
+constexpr CommandHelp list_help{"Lists all segments: link, generation, size, owner, both sides, age",
+                                R"(States of the two sides of a segment:
+  absent   has not joined this generation yet
+  alive    has joined
+  stopped  has joined, but a signal or a debugger has stopped its process
+  dead     has left or died; the pid is that of the previous process
+  held     the segment cannot be read, and a running process has joined it
+`pid N of another namespace`: the process runs in another container, and N is its pid there.
+Segments of other users are listed but not opened. Damaged segments are listed with the reason.
+Exit code 0.)"};
 constexpr CommandHelp info_help{"Shows one segment: header, sides, and every ring, call queue and blob in it",
                                 "For the states of a side, see tandem shm list --help.\n"
                                 "Exit code 1 if the segment does not exist or cannot be read."};
 constexpr CommandHelp stats_help{
     "Shows counters of every ring and call queue, or with --watch their rates per second",
-    "Counters of a ring since the segment was created:\n"
-    "  sent = received + refused + overwritten + skipped + waiting\n"
-    "  refused      dropped by the sender: no room, too long, or not convertible\n"
-    "  overwritten  the writer dropped the record to make room for a newer one\n"
-    "  skipped      the reader took newer records, because its queue is shorter than the backlog\n"
-    "  waiting      written but not read yet\n"
-    "  converted    converted to the receiver's type, as configured by convert.PORT\n"
-    "  undecodable  received, but not a value of the port's type\n"
-    "  discarded    received, but the queue of a receiving port had no room for it\n"
-    "  missed       deadlines (deadline_ms) that passed without a message\n"
-    "Counters of a call queue:\n"
-    "  calls        made; taken by a worker; answered\n"
-    "  expired      taken, but not run because the deadline had passed\n"
-    "  overload     refused, because no slot became free before the deadline\n"
-    "  time-out     abandoned by the caller at the deadline\n"
-    "  cancelled    abandoned by the caller before the deadline\n"
-    "  in use       slots of calls in progress\n"
-    "A call in progress is waiting for a worker, running, or still running after its caller abandoned it.\n"
-    "Its progress is reported by the component that executes it (share/doc/tandem/docs/joining.md).\n"
-    "Times are measured on a sample of the records and calls:\n"
-    "  age          from writing to reading a record\n"
-    "  round trip   from a call to its reply, at the caller\n"
-    "  service      the part of the round trip that the server takes\n"
-    "Times are counted in buckets. A percentile is the upper end of its bucket, at most 25 % too high.\n"
-    "Counters are read one after the other: the sum above is exact only while nothing is sent or received.\n"
-    "Exit code 1 if the segment does not exist or cannot be read."};
+    R"(Counters of a ring since the segment was created:
+  sent = received + refused + overwritten + skipped + waiting
+  refused      dropped by the sender: no room, too long, or not convertible
+  overwritten  the writer dropped the record to make room for a newer one
+  skipped      the reader took newer records, because its queue is shorter than the backlog
+  waiting      written but not read yet
+  converted    converted to the receiver's type, as configured by convert.PORT
+  undecodable  received, but not a value of the port's type
+  discarded    received, but the queue of a receiving port had no room for it
+  missed       deadlines (deadline_ms) that passed without a message
+Counters of a call queue:
+  calls        made; taken by a worker; answered
+  expired      taken, but not run because the deadline had passed
+  overload     refused, because no slot became free before the deadline
+  time-out     abandoned by the caller at the deadline
+  cancelled    abandoned by the caller before the deadline
+  in use       slots of calls in progress
+A call in progress is waiting for a worker, running, or still running after its caller abandoned it.
+Its progress is reported by the component that executes it (share/doc/tandem/docs/joining.md).
+Times are measured on a sample of the records and calls:
+  age          from writing to reading a record
+  round trip   from a call to its reply, at the caller
+  service      the part of the round trip that the server takes
+Times are counted in buckets. A percentile is the upper end of its bucket, at most 25 % too high.
+Counters are read one after the other: the sum above is exact only while nothing is sent or received.
+Exit code 1 if the segment does not exist or cannot be read.)"};
 constexpr CommandHelp clean_help{
     "Removes segments that no running process holds",
     "Prints which segments it removed, which it kept, and why. Damaged segments are removed too. A segment\n"

@@ -26,10 +26,10 @@ void add_new(CLI::App& system, Action& selected) {
     auto options = std::make_shared<NewSystemOptions>();
     CLI::App* command = add_command(
         system, "new", "Writes a folder for tandem run with components of both models, without connections",
-        "A COMPONENT is the folder of a built component of either model, or its profile or module. Name it\n"
-        "several times for several instances. Each OPRoS component is also shown as an RTC: tandem rtm\n"
-        "connect and the page of tandem monitor --control connect any two ports while the system runs, and\n"
-        "tandem system save keeps the connections.");
+        R"(A COMPONENT is the folder of a built component of either model, or its profile or module. Name it
+several times for several instances. Each OPRoS component is also shown as an RTC: tandem rtm
+connect and the page of tandem monitor --control connect any two ports while the system runs, and
+tandem system save keeps the connections.)");
     command->add_option("DIR", options->folder, "folder to write; its name is that of the link")->required();
     command->add_option("COMPONENT", options->components, "components")->required();
     command->add_option("--timeout", options->timeout_s, "time limit for the components' code (10)")
@@ -42,10 +42,10 @@ void add_save(CLI::App& system, Action& selected) {
     auto options = std::make_shared<SaveSystemOptions>();
     CLI::App* command = add_command(
         system, "save", "Saves a running system as a folder for tandem run",
-        "Copies the configuration from which the hosts run. Writes the current connections, active RTCs and\n"
-        "configuration sets of the RTM host, and the properties of the OPRoS components. Connections of the\n"
-        "OPRoS application stay as they are, because they cannot change while it runs. A line names what\n"
-        "cannot be saved.");
+        R"(Copies the configuration from which the hosts run. Writes the current connections, active RTCs and
+configuration sets of the RTM host, and the properties of the OPRoS components. Connections of the
+OPRoS application stay as they are, because they cannot change while it runs. A line names what
+cannot be saved.)");
     command->add_option("DIR", options->folder, "folder to write")->required();
     command
         ->add_option("--host", options->hosts,

@@ -12,11 +12,9 @@ namespace {
 
 // The last lines of each command's --help.
 constexpr const char* names_of_components =
-    "COMPONENT is the name of a component in the application of a running opros_host of this user. If "
-    "several\n"
-    "hosts have it, write HOST/COMPONENT with the process id or the application of the host, see tandem "
-    "opros list.\n"
-    "Exit code 1 if there is no such component, if the host refuses, or if it does not answer in time.";
+    R"(COMPONENT is the name of a component in the application of a running opros_host of this user. If several
+hosts have it, write HOST/COMPONENT with the process id or the application of the host, see tandem opros list.
+Exit code 1 if there is no such component, if the host refuses, or if it does not answer in time.)";
 
 CLI::App* add_running_command(CLI::App& opros, const char* name, const char* brief,
                               OprosClientOptions& client, const std::string& details) {
