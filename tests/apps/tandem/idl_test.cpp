@@ -231,6 +231,26 @@ module Cell {
                Catch::Contains("Cell::Base: attribute") && Catch::Contains("Cell::Base: readonly attribute"));
 }
 
+TEST_CASE("opros2idl escapes the keywords of CORBA's component model, which omniidl warns of") {
+    const IdlFolder folder;
+    folder.write("Drive.xml", R"(<service_port_type_profile><service_port_type><type_name>Drive</type_name>
+  <method name="import" return_type="void" call_type="blocking">
+    <param index="1"><type>Pose</type><name>Home</name></param></method>
+</service_port_type></service_port_type_profile>
+)");
+    folder.write(
+        "pose.xml",
+        R"(<data_type><struct name="Pose"><item type="double">component</item></struct></data_type>)");
+    const auto made = folder.run(program + " opros2idl Drive.xml --types pose.xml -o Drive.idl");
+    INFO(made.output);
+    REQUIRE(made.exit_code == 0);
+    CHECK_THAT(folder.read("Drive.idl"), Catch::Contains("double _component;") &&
+                                             Catch::Contains("void _import(in ::DriveTypes::Pose _Home)"));
+    const auto read = folder.run("omniidl -bcxx Drive.idl 2>&1");
+    CHECK(read.exit_code == 0);
+    CHECK(read.output == "");
+}
+
 TEST_CASE("opros2idl names the file and line of an unknown type") {
     const IdlFolder folder;
     folder.write("ArmService.xml", service_xml);

@@ -12,6 +12,7 @@
 #include "shm/ring/ring_writer.hpp"
 
 #include <cmath>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 using namespace tandem::monitor::test;
