@@ -55,7 +55,7 @@ function(add_dependencies) # on targets of documentation or IDL that do not exis
 endfunction()
 function(message)
   set(arguments ${ARGV})
-  list(TRANSFORM arguments REPLACE "^FATAL_ERROR$" WARNING)
+  list(TRANSFORM arguments REPLACE "^(FATAL|SEND)_ERROR$" WARNING) # CPack sends one for each missing file
   _message(${arguments} "") # also without text
 endfunction()
 cmake_policy(POP)

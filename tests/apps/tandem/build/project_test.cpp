@@ -132,6 +132,22 @@ TEST_CASE("CMake itself says what the library of a component compiles") {
     CHECK(select(folder.path() / "arm", projects, {{"Arm.cpp"}, {}}).target.standard == 17);
 }
 
+TEST_CASE("a project that reports errors is configured, and one whose license file is missing") {
+    const Folder folder;
+    folder.write(
+        "CMakeLists.txt",
+        "cmake_minimum_required(VERSION 3.16)\nproject(arms CXX)\nadd_library(Arm SHARED Arm.cpp Part.cpp)\n"
+        "set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/COPYING.LESSER)\ninclude(CPack)\n"
+        "message(SEND_ERROR \"Doxygen was not found.\")\n");
+    folder.write("Arm.cpp", module_text);
+    for (const char* other : {"Part.cpp", "Old.cpp"}) folder.write(other, "");
+    CMakeProjects projects("", 60);
+    const auto found = select(folder.path(), projects);
+    CHECK(projects.problem().empty());
+    CHECK(found.target.name == "Arm");
+    CHECK(names_of(found.sources) == Names{"Arm.cpp", "Part.cpp"});
+}
+
 TEST_CASE("a library that a project makes from object libraries has their sources") {
     const Folder folder;
     folder.write("CMakeLists.txt",
