@@ -132,7 +132,7 @@ constexpr Bound bounds[] = {
     {"tandem/path/rtm-to-opros/48/sender", 300, 30, 8, 0, 0},
     {"tandem/path/rtm-to-opros/48/receiver", 360, 42, 10, 0, 1},
     {"tandem/path/rtm-to-opros/8/caller", 1460, 145, 35, 0, 10},
-    {"tandem/path/rtm-to-opros/8/worker", 980, 98, 20, 0, 12},
+    {"tandem/path/rtm-to-opros/8/worker", 980, 98, 22, 0, 12},
     {"tandem/path/inside-opros/48/sender", 300, 30, 9, 0, 0},
     {"tandem/path/inside-opros/48/receiver", 270, 32, 8, 0, 1},
     {"tandem/path/inside-opros/8/caller", 48, 10, 4, 0, 0},
