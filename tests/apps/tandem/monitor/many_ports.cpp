@@ -30,6 +30,8 @@ namespace {
 
 using namespace tandem;
 
+volatile std::sig_atomic_t ended = 0; // by SIGTERM
+
 shm::JoinOptions sparse() {
     shm::JoinOptions options;
     options.arena_bytes = 8 << 20;
@@ -78,7 +80,7 @@ bool input_has_ended() {
     return poll(&input, 1, 0) > 0 && read(0, &byte, 1) <= 0;
 }
 
-[[noreturn]] void receive(const std::string& name, int links, int ports, bool refuse) {
+void receive(const std::string& name, int links, int ports, bool refuse) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     std::optional<process::OwnRefusedConnection> refused;
     if (refuse)
@@ -95,7 +97,7 @@ bool input_has_ended() {
             readers.push_back(std::make_unique<shm::RingReader>(
                 *sides.back()->find_ring(shm::Side::first, link::ring_name("sensor" + std::to_string(j)))));
     }
-    while (true) {
+    while (ended == 0) {
         for (auto& reader : readers)
             while (reader->read()) {
             }
@@ -111,11 +113,14 @@ int run(const std::string& name, int links, int ports, int rate, bool refuse) {
         for (const auto& ring : add_ports(*sides.back(), ports, refuse)) writers.emplace_back(ring);
     }
     const pid_t child = fork();
-    if (child == 0) receive(name, links, ports, refuse);
+    if (child == 0) {
+        receive(name, links, ports, refuse);
+        _exit(0); // without the ends of the other side
+    }
     std::printf("%zu ports\n", writers.size());
     std::fflush(stdout);
     auto next = std::chrono::steady_clock::now();
-    for (std::uint32_t count = 0; !input_has_ended(); ++count) {
+    for (std::uint32_t count = 0; ended == 0 && !input_has_ended(); ++count) {
         std::vector<std::byte> bytes;
         wire::CdrWriter out(bytes);
         out.put(std::sin(count / 50.0));
@@ -124,7 +129,7 @@ int run(const std::string& name, int links, int ports, int rate, bool refuse) {
         next += std::chrono::microseconds(1'000'000 / rate);
         std::this_thread::sleep_until(next);
     }
-    kill(child, SIGKILL);
+    kill(child, SIGTERM);
     waitpid(child, nullptr, 0);
     return 0;
 }
@@ -133,6 +138,8 @@ int run(const std::string& name, int links, int ports, int rate, bool refuse) {
 
 int main(int argc, char** argv) {
     if (argc != 5 && argc != 6) return 2;
+    std::signal(SIGTERM,
+                [](int) { ended = 1; }); // both processes leave their links, so that no segment stays
     try {
         return run(argv[1], std::atoi(argv[2]), std::atoi(argv[3]), std::atoi(argv[4]), argc == 6);
     } catch (const std::exception& error) {

@@ -299,7 +299,8 @@ TEST_CASE("the profile of a component may be in the folder above its sources") {
 }
 
 // In the style of OPRoS's vision components: OpenCV's C API of 2010.
-TEST_CASE("the old headers of OpenCV are found if OpenCV 4 is installed; otherwise its package is named") {
+TEST_CASE(
+    "the old headers of OpenCV are found if OpenCV 4 is installed, and its package is named otherwise") {
     const Folder folder;
     folder.write(
         "Eye/Eye.cpp",

@@ -2,6 +2,7 @@
 // The page with 1,000 ports: what it changes for each state, and that it never holds a person up. A machine under load makes
 // every task longer, so that work is counted and times are only printed.
 import assert from "node:assert/strict";
+import { readdirSync, rmSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { cleanUp, end, start, startBrowser, startMonitor } from "./robot.mjs";
@@ -38,8 +39,8 @@ before(async () => {
 });
 after(async () => {
   await browser?.close();
-  if (system) system.stdin.end();
   await cleanUp();
+  for (const file of readdirSync("/dev/shm").filter((each) => each.startsWith(`tandem.${name}-`))) rmSync(join("/dev/shm", file)); // of the killed system
 });
 
 /** What happens meanwhile; `cpu`: ms of the page's thread for each state, by its own clock, which other programs do not stretch. */
