@@ -250,7 +250,8 @@ TEST_CASE("Messages that are encoded in a port's buffer are those of the seriali
     check_encoding(RTC::TimedPose2D{{1, 2}, {{3, 4}, 5}});
 }
 
-TEST_CASE("A port's buffer decodes messages of the other byte order, and reports one that does not fit the type") {
+TEST_CASE(
+    "A port's buffer decodes messages of the other byte order, and reports one that does not fit the type") {
     RTC::PortBuffer buffer;
     RTC::CORBA_CdrSerializer<RTC::TimedDoubleSeq> stream;
     stream.isLittleEndian(false);
