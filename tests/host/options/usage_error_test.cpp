@@ -49,8 +49,9 @@ TEST_CASE("A usage error is reported in one line that names the command, what is
     CHECK(printed({"--verbose"}) == "tool: there is no option --verbose; see tool --help\n");
     CHECK(printed({"run", "--prot=3"}) ==
           "tool run: there is no option --prot; did you mean --port?; see tool run --help\n");
-    CHECK(printed({"run", ".", "--port", "x"}) ==
-          "tool run: --port: Value x not in range 0 to 65535; see tool run --help\n");
+    CHECK_THAT(printed({"run", ".", "--port", "x"}), // CLI11 2.4 puts the range in brackets
+               Catch::StartsWith("tool run: --port: Value x not in range ") &&
+                   Catch::EndsWith("; see tool run --help\n"));
     CHECK(printed({"run", "a", "b"}) ==
           "tool run: The following argument was not expected: b; see tool run --help\n");
 }
