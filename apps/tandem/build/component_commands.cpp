@@ -2,6 +2,7 @@
 #include "apps/tandem/build/component_commands.hpp"
 #include "host/options/number_check.hpp"
 
+#include <cstdlib>
 #include <memory>
 
 namespace tandem::command {
@@ -46,13 +47,20 @@ void add_build_options(CLI::App* command, PluginBuildOptions& options, const cha
         ->add_option("--standard", options.standard,
                      "C++ standard (that of the folder's CMake project, at least 14)")
         ->check(CLI::IsMember({11, 14, 17, 20}));
-    command
-        ->add_option("--build-type", options.build_type,
-                     "CMake build type, for example Debug for gdb (RelWithDebInfo)")
-        ->type_name("TYPE")
-        ->envname("CMAKE_BUILD_TYPE")
-        ->check(
-            CLI::IsMember({"Debug", "Release", "RelWithDebInfo", "MinSizeRel", "None"}, CLI::ignore_case));
+    const CLI::Validator types =
+        CLI::IsMember({"Debug", "Release", "RelWithDebInfo", "MinSizeRel", "None"}, CLI::ignore_case);
+    CLI::Option* const type = command
+                                  ->add_option("--build-type", options.build_type,
+                                               "CMake build type, for example Debug for gdb (RelWithDebInfo)")
+                                  ->type_name("TYPE")
+                                  ->envname("CMAKE_BUILD_TYPE")
+                                  ->check(types);
+    // CLI11 2.4 ignores a value of the environment that the check refuses.
+    command->parse_complete_callback([type, types] {
+        const char* const value = std::getenv("CMAKE_BUILD_TYPE");
+        if (value == nullptr || *value == '\0' || type->count() > 0) return;
+        throw CLI::ValidationError("CMAKE_BUILD_TYPE", types(std::string(value)));
+    });
     command
         ->add_option("--timeout", options.timeout_s,
                      "time limit for configuring and for compiling, each (600)")

@@ -29,7 +29,10 @@ std::map<std::string, std::string> missing_names(const std::string& output) {
         if (const auto known = declarations.find(name); known != declarations.end()) missing.insert(*known);
         if (const auto header = headers.find(name); header != headers.end())
             missing.emplace(header->second, "#include " + header->second);
-        if (line.find("did you forget to") == std::string::npos) continue; // advice of g++
+        // Advice of g++ 12, and of later ones.
+        if (line.find("did you forget to") == std::string::npos &&
+            line.find("fixable by adding") == std::string::npos)
+            continue;
         if (const auto header = between(line, "#include <", ">"); !header.empty())
             missing.emplace("<" + header + ">", "#include <" + header + ">");
     }

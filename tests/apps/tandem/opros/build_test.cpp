@@ -48,6 +48,7 @@ TEST_CASE("a component is built with the build type of the option, of the enviro
                Catch::Contains("--build-type: Debgu") && Catch::Contains("RelWithDebInfo"));
     setenv("CMAKE_BUILD_TYPE", "Debgu", 1);
     CHECK_THAT(build({dir}).errors, Catch::Contains("Debgu") && Catch::Contains("RelWithDebInfo"));
+    unsetenv("CMAKE_BUILD_TYPE");
 }
 
 TEST_CASE("a component made by tandem opros new is built by tandem opros build and runs") {
