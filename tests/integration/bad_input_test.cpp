@@ -76,7 +76,7 @@ TEST_CASE("a host whose peer never joins gives up and names the peer") {
     CHECK_FALSE(hosts.left_in_shared_memory());
 }
 
-TEST_CASE("a missing RTC that is to be shared is named") {
+TEST_CASE("a missing RTC in the list of shared RTCs is named") {
     TwoHosts hosts;
     hosts.set_interceptor("rtc=Nobody0");
     hosts.start_rtm();

@@ -29,7 +29,7 @@ std::map<std::string, link::PortTable> probe_rtc_conf(const std::filesystem::pat
 /// An RTC that the rtc.conf creates, except InterceptorComps.
 struct RtcInstance {
     std::string name;
-    std::chrono::nanoseconds period; ///< of its own execution context; 0: none
+    std::chrono::nanoseconds period; ///< of the execution context that it owns; 0: it owns none
 };
 /// Returns the RTCs in their order of creation. Throws like probe_rtc_conf().
 std::vector<RtcInstance> probe_rtc_instances(const std::filesystem::path& conf,

@@ -160,7 +160,7 @@ BufferStatus LinkBuffer::copy_message(const shm::Record& record, RTC::ByteData& 
         }
         body = {static_cast<const std::byte*>(stream->bufPtr()), stream->bufSize()};
     }
-    // Restores RTM's time before the payload, because the port expects a message of its own type.
+    // Restores RTM's time before the payload, because the port expects a message of the RTC's type.
     const std::size_t head = channel_.timed ? time_bytes : 0;
     message.setDataLength(head + body.size());
     message.isLittleEndian(true);

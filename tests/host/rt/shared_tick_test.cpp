@@ -65,7 +65,7 @@ TEST_CASE("shared ticks of one period need at most as many threads as processors
         threads.insert(cell->thread);
         CHECK(cell->overlaps == 0);
     }
-    // A machine that stops for a moment may have given some a thread of their own.
+    // A machine that stops for a moment may have given some a separate thread.
     CHECK(threads.size() <= std::thread::hardware_concurrency() + 4);
 }
 

@@ -23,7 +23,7 @@ class EndingCalculator : public testing::Calculator {
 };
 
 /// Ends the manager by shutdown() in the place that the property `in` names: a callback, its destructor, a task of the
-/// manager, a thread of its own, even during the set-up, or a call of its service. Prints the callbacks of the end.
+/// manager, a thread that it starts, even during the set-up, or a call of its service. Prints the callbacks of the end.
 class Ender : public RTC::DataFlowComponentBase {
   public:
     explicit Ender(RTC::Manager* manager) : DataFlowComponentBase(manager), port_("calculator") {}

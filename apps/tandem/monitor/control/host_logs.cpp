@@ -38,7 +38,8 @@ int tandem_above(std::uint32_t pid) {
     return program_of(static_cast<std::uint32_t>(parent)) == "tandem" ? parent : 0;
 }
 
-/// Adds the standard error of a process to the logs if it is a file of this user. Never opens a pipe, because this process would become its reader.
+/// Adds the standard error of a process to the logs if it is a file of this user. Never opens a
+/// pipe, because this process would become its reader.
 bool add_log(std::uint32_t pid, const std::string& host, std::map<std::string, Log>& logs) {
     const std::string path = fmt::format("/proc/{}/fd/2", pid);
     struct stat status {};

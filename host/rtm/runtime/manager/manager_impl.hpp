@@ -52,7 +52,7 @@ struct Manager::Impl {
         ECDeleteFunc destroy;
     };
     // Guards what follows. Recursive, because functions that hold it call others that take it. Not held
-    // while callbacks of components run: they call the manager, even from threads of their own.
+    // while callbacks of components run: they call the manager, even from threads that they start.
     mutable std::recursive_mutex mutex;
     coil::Properties config; // Manager::getConfig() hands it out without the mutex, as OpenRTM-aist does
     std::vector<Module> modules;

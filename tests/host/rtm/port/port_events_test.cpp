@@ -9,7 +9,7 @@ namespace {
 
 using EventNames = std::vector<std::string>;
 
-std::mutex events_mutex; // publishers have threads of their own
+std::mutex events_mutex; // each publisher has a thread
 
 struct DataEventListener : RTC::ConnectorDataListener {
     USE_CONNLISTENER_STATUS;
@@ -209,7 +209,7 @@ TEST_CASE("A periodic subscription sends what its policy chooses at each period"
           6); // new, as OpenRTM-aist
 }
 
-TEST_CASE("A subscription to new data loses none when all are to be sent") {
+TEST_CASE("A subscription to new data loses none when it asks for all") {
     ManagerFixture fixture;
     CHECK(published(fixture, "subscription_type=new&publisher.push_policy=all", 6) ==
           std::vector<long>{1, 2, 3, 4, 5, 6});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a bridge needs: ports of a type known at run time, buffers of its own, signatures.
+// What a bridge needs: ports of a type known at run time, buffers that it provides, signatures.
 #include "tests/host/rtm/manager_fixture.hpp"
 #include <rtm/CdrRingBuffer.h>
 #include <rtm/InterfaceSignatures.h>

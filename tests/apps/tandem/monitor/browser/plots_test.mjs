@@ -68,7 +68,7 @@ test("numbers of another port are added by name or by dragging, and removed", as
   await page.locator("#plots-section").screenshot({ path: join(pictures, "plots.png") });
 });
 
-test("a port chosen next gets a plot of its own, and all survive a reload", async () => {
+test("a port chosen next gets a separate plot, and all survive a reload", async () => {
   await page.locator("#member-filter").fill("chair");
   await page.locator("#member-tree .port-name").first().click();
   await page.waitForFunction(() => document.querySelectorAll(".plot-card").length === 2 && document.querySelector(".plot-card .entry"));
