@@ -78,8 +78,8 @@ print_progress() {
 print_steps() { if [ -t 1 ]; then printf '\r   %s ' "$1"; else printf '   %s\n' "$1"; fi; }
 
 # build_preset PRESET [TARGET ...]
-# Configures build/PRESET if it is new, with the options in the array `cmake_options`, and builds the targets (default:
-# all). Without options, each file is compiled separately and tests are targets, even in a folder that run-wheelchair.sh configured.
+# Configures build/PRESET if it is new, with the options in the array `cmake_options`, and builds the targets (default: all).
+# Without options, each file is compiled separately and tests are targets, even in a folder that run-wheelchair.sh configured.
 cmake_options=()
 build_preset() {
     local preset=$1
