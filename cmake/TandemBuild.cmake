@@ -17,7 +17,7 @@ set(CMAKE_INSTALL_RPATH "$ORIGIN;$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
 
 set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
 add_compile_options(-Wall -Wextra)
-# __FILE__ (omniORB's generated code keeps it) tells nobody where the tree was built.
+# Keeps the path of the tree out of __FILE__, which omniORB's generated code contains.
 add_compile_options(-fmacro-prefix-map=${PROJECT_SOURCE_DIR}/= -fmacro-prefix-map=${PROJECT_BINARY_DIR}/=)
 if(TANDEM_SANITIZE)
   add_compile_options(-fsanitize=${TANDEM_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
@@ -29,7 +29,7 @@ if(TANDEM_COVERAGE)
   add_link_options(--coverage)
 endif()
 
-# The dynamic linker finds all functions when a program starts, not at the first call of each, within a robot's cycle.
+# The dynamic linker binds all functions when a program starts, and none at its first call within a robot's cycle.
 add_link_options(-Wl,-z,now)
 
 # tandem_message_path(TARGET...)

@@ -3,7 +3,7 @@
 # names the rest.
 
 # tandem_install(TARGET... [what install(TARGETS) takes])
-# As install(TARGETS), but a target that has not been built is passed over.
+# Like install(TARGETS), but skips targets that have not been built.
 function(tandem_install)
   install(TARGETS ${ARGN} OPTIONAL)
   cmake_parse_arguments(arg "" "COMPONENT;DESTINATION;EXPORT" "RUNTIME;LIBRARY" ${ARGN})

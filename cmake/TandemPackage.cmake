@@ -26,7 +26,7 @@ foreach(file TandemOpros.cmake TandemRtm.cmake TandemComponent.cmake catkin/catk
   configure_file(${package_source}/${file} ${package_built}/${file} COPYONLY)
 endforeach()
 
-# Sets of targets of their own, since one may be installed without the other.
+# Separate sets of targets, because one may be installed without the other.
 tandem_install(tandem_opros EXPORT TandemTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT opros)
 tandem_install(tandem_rtm EXPORT TandemRtmTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT rtm)
 install(EXPORT TandemTargets NAMESPACE Tandem:: DESTINATION ${package_dir} COMPONENT opros)
@@ -43,7 +43,7 @@ foreach(component opros rtm)
     COMPONENT ${component} PATTERN "README.md" EXCLUDE)
   tandem_install(tandem RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT ${component})
 endforeach()
-# The program `tandem` is of both models.
+# The program `tandem` is linked with both libraries.
 tandem_install(tandem_opros LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT rtm)
 install(TARGETS tandem_rtm LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT opros OPTIONAL)
 tandem_name_missing_at_install()

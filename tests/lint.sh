@@ -28,8 +28,8 @@ say "includes and ABI numbers"
 python3 tests/architecture/check_includes.py .
 python3 tests/architecture/abi_number.py .
 
-# source_of_header HEADER: prints a source that includes it: what is called as it is, else one of those that include it or a
-# header of which the same is true. Prints nothing if no product source does.
+# source_of_header HEADER: prints a source that includes it: the one of the same name, otherwise one that includes it directly or
+# by another header. Prints nothing if there is none outside the tests.
 source_of_header() {
     local users
     if [ -f "${1%.hpp}.cpp" ]; then echo "${1%.hpp}.cpp"; return; fi

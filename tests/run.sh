@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # Installs what is missing, builds, runs all tests.   tests/run.sh [--build-only] [--preset NAME] [ctest options]
 # TANDEM_STRESS=N multiplies the sizes of the stress tests (default 1, short).
-# Tests run side by side, two per processor, since they wait more than they compute; those that measure time run alone. Some
-# bound waits of threads that other tests can hold up on a busy machine: what has failed runs once more, by itself, and is named.
+# Two tests for each processor run at the same time, because most of them wait; those that measure time run alone. On a busy machine,
+# other tests can delay a thread beyond the limit of a test. Therefore each failed test is named and runs once more, alone.
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/../apps/setup.sh"
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-# The packages. Libraries of other packages that programs are linked with come by dpkg-shlibdeps; named here is what no
-# program is linked with, and our own packages, which fit only the same version. They take their files in this order: a
-# later one has what the patterns of the earlier ones have left.
+# The packages. dpkg-shlibdeps finds the packages of libraries that programs are linked with. The other dependencies are named
+# here, and our own packages, in the same version. The packages take their files in this order: a later one gets what the
+# patterns of the earlier ones have left.
 
 set(about "Tandem runs unmodified OPRoS components and unmodified OpenRTM-aist
 RT-Components in one real-time application, joined through shared memory.

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Run by CPack before it installs anything: the whole tree, stripped, in debian/stage of the build tree, with what only the
-# packages have: man pages, the service, rules and limits. Refuses a tree that is built in part.
+# CPack runs this before it installs anything. It installs the whole tree, stripped, into debian/stage of the build tree, and
+# adds what only the packages have: man pages, the service, rules and limits. It refuses a tree that is built in part.
 set(stage ${CPACK_TANDEM_BUILD}/debian/stage)
 set(debian ${CPACK_TANDEM_SOURCE}/cmake/debian)
 file(REMOVE_RECURSE ${stage})

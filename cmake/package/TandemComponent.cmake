@@ -6,7 +6,7 @@
 # found where nothing else has one of that name. With opencv4, the headers of OpenCV 1 and 2 are found, which include those that
 # OpenCV 4 has in their place.
 
-# Behind the folders of the system: a header in `dir` must not hide another one.
+# Searches `dir` after the folders of the system: a header in it must not hide another one.
 function(tandem_include_last name dir)
   target_compile_options(${name} PRIVATE "SHELL:-idirafter \"${dir}\"")
 endfunction()

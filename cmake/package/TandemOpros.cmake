@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 # tandem_add_opros_component(NAME [FOLDER dir] [SOURCES a.cpp ...] [INCLUDE_DIRS dir ...] [PROFILES X.xml ...]
 #                            [DEFINITIONS X=1 ...] [LIBRARIES x ...] [PKG_CONFIG module ...] [CXX_STANDARD 14])
-# The plugin NAME.so of an OPRoS component, its profiles copied beside it. All but NAME has a default: the sources and
-# profiles that lie in the folder (the current source folder), as OPRoS components are laid out. Sources with a main() are
-# programs and stay out, also of CANDIDATES, which are taken in place of those in the folder.
+# Builds the plugin NAME.so of an OPRoS component and copies its profiles beside it. By default, takes the sources and profiles
+# in the folder (the current source folder), as OPRoS components are laid out. Sources with a main() are programs and are left
+# out, also of CANDIDATES, which replace the sources in the folder.
 
 # Sources, include folders and profiles of a component's folder.
 function(tandem_opros_folder folder sources include_dirs profiles)
@@ -67,12 +67,12 @@ function(tandem_add_opros_component name)
     LIBRARIES_IF_FOUND ${arg_LIBRARIES_IF_FOUND} LIBRARY_DIRS ${arg_LIBRARY_DIRS})
   # What the components' own makefiles define; without it some sources take their Windows branch.
   target_compile_definitions(${name} PRIVATE _OPROS_LINUX_ ${arg_DEFINITIONS})
-  # Without symbols that are unique in the process the library can be unloaded and built anew; what is missing is told
-  # when it is linked and not when it is loaded.
+  # Without symbols that are unique in the process, the library can be unloaded and rebuilt. Missing symbols are reported
+  # when it is linked, not when it is loaded.
   target_compile_options(${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fno-gnu-unique>)
   target_link_options(${name} PRIVATE -Wl,--no-undefined)
-  # Functions that forget their return go on behind their caller's call, as with the compilers that components were
-  # written with; the optimizer of today would let them run on into whatever code comes next.
+  # A function without its return statement returns to its caller, as with the compilers for which components were
+  # written. Today's optimizer would let it run into the code that follows it.
   if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND NOT "${CMAKE_CXX_FLAGS}" MATCHES "-fsanitize")
     target_compile_options(${name} PRIVATE -fsanitize=unreachable -fsanitize-undefined-trap-on-error)
   elseif(CMAKE_CXX_COMPILER_ID MATCHES Clang)

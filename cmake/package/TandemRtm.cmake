@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 # tandem_add_rtm_component(NAME [FOLDER dir] [SOURCES a.cpp ...] [IDL F.idl ...] [INCLUDE_DIRS dir ...]
 #                          [DEFINITIONS X=1 ...] [LIBRARIES x ...] [PKG_CONFIG module ...] [CXX_STANDARD 14])
-# The plugin NAME.so of an RT-Component. All but NAME has a default: the sources and IDL files that lie in the folder
-# (the current source folder), as RTCBuilder and rtc-template lay them out. Sources with a main() are programs and
-# stay out, also of CANDIDATES, which are taken in place of those in the folder. A source whose main() a macro leaves
-# out (#ifndef NO_MAIN) is compiled with that macro. MORE_IDL: IDL files besides those.
+# Builds the plugin NAME.so of an RT-Component. By default, takes the sources and IDL files in the folder (the current source
+# folder), as RTCBuilder and rtc-template lay them out. Sources with a main() are programs and are left out, also of
+# CANDIDATES, which replace the sources in the folder. A source whose main() a macro leaves out (#ifndef NO_MAIN) is
+# compiled with that macro. MORE_IDL: further IDL files.
 
 # The IDL files of a component's folder; those that come with OpenRTM-aist are compiled in the library already, and
 # omniidl-tmpNUMBER.idl is what older omniidl leaves of another file when it is interrupted.
@@ -145,8 +145,8 @@ function(tandem_add_rtm_component name)
     PKG_CONFIG ${arg_PKG_CONFIG} PKG_CONFIG_IF_FOUND ${arg_PKG_CONFIG_IF_FOUND}
     LIBRARIES_IF_FOUND ${arg_LIBRARIES_IF_FOUND} LIBRARY_DIRS ${arg_LIBRARY_DIRS})
   target_compile_definitions(${name} PRIVATE ${arg_DEFINITIONS})
-  # Without symbols that are unique in the process the library can be unloaded and built anew; what is missing is told
-  # when it is linked and not when it is loaded.
+  # Without symbols that are unique in the process, the library can be unloaded and rebuilt. Missing symbols are reported
+  # when it is linked, not when it is loaded.
   target_compile_options(${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fno-gnu-unique>)
   target_link_options(${name} PRIVATE -Wl,--no-undefined)
   set_target_properties(${name} PROPERTIES PREFIX "" SUFFIX .so
