@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Line coverage of shm/ by its own tests: per file and in total.   tests/coverage.sh [--at-least PERCENT]
-# Builds preset coverage and runs the tests of shm, fault and fuzz. Exits 1 below 95 percent, or what was asked.
-# What a process counts is lost when it is killed: what only such processes run counts as missed.
+# Line coverage of shm/: per file and in total.   tests/coverage.sh [--at-least PERCENT]
+# Builds preset coverage and runs the tests of shm and fault, and fuzz_segment. Exits 1 below PERCENT (95).
+# A killed process loses its counts: lines that only such processes run count as missed.
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/../apps/setup.sh"
 

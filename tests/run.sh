@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 # Installs what is missing, builds, runs all tests.   tests/run.sh [--build-only] [--preset NAME] [ctest options]
 # TANDEM_STRESS=N multiplies the sizes of the stress tests (default 1, short).
-# Tests run side by side, two per processor, since they wait more than they compute; those that measure time run alone. Some
-# bound waits of threads that other tests can hold up on a busy machine: what has failed runs once more, by itself, and is named.
+# Tests run side by side, two per processor, because they wait more than they compute; those that measure time run alone. Some
+# tests limit waits for threads that other tests can delay on a busy machine: tests that fail run once more, one by one, and are
+# named.
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/../apps/setup.sh"
 

@@ -46,7 +46,7 @@ void add_host_options(CLI::App& app, Options& o, std::optional<double>& spin,
     app.add_option("--rtm-cpu", o.rtm_cpu, "core for rtm_host's tick threads");
     app.add_option("--tick-spin", spin,
                    "both hosts poll for this time before each tick [us] (100 while messages flow)");
-    app.add_option("--wait-mode", wait, "how both hosts wait for each other's calls");
+    app.add_option("--wait-mode", wait, "how both hosts wait for each other's calls (spin-then-futex)");
     app.add_flag("--low-latency-idle", idle, "both hosts keep the cores out of deep sleep states");
     app.add_flag("--lock-memory", lock, "both hosts lock their memory");
 }
