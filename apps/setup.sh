@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Sourced by apps/run-wheelchair.sh, apps/bench/run.sh and the scripts in tests. Installs missing Debian packages of
-# dependencies.txt, and builds targets of a preset. Prints its steps; prints nothing if nothing is needed.
+# Sourced by apps/run-wheelchair.sh, apps/bench/run.sh and scripts in tests/. Installs missing Debian packages of
+# dependencies.txt, and builds targets of a preset. Prints its steps.
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Compiles for arm64 what needs no libraries for arm64: shared memory, processes, ticks, crash reports and texts of hosts, and
 # the wire format. Takes half a minute.   tests/cross_compile.sh
-# tests/arm64.sh compiles everything, and runs tests.
+# tests/arm64.sh compiles with libraries, and runs tests.
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/../apps/setup.sh"
 

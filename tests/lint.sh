@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Checks what no compiler checks: clang-format on every file of ours, the arrows between rooms, the ABI numbers, and
+# Checks what no compiler checks: clang-format on every C++ file, the includes between rooms, the ABI numbers, and
 # clang-tidy on the files that changed.   tests/lint.sh [--all | --since COMMIT]
-# clang-tidy looks at the product files (not the tests) changed since COMMIT (default: the commit before this one, and
-# what is not committed), and at one source for each changed header; --all at every source, which takes half an hour.
+# clang-tidy checks the product files (not the tests) that changed since COMMIT (default: in the newest commit and since it), and
+# one source for each changed .hpp. With --all it checks every source, which takes half an hour.
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/../apps/setup.sh"
 

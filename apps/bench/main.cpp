@@ -37,7 +37,7 @@ Options read_options(int argc, char** argv, int& exit_code) {
     app.add_flag("--list", options.list, "Print the names of the cases and stop");
     app.add_option("--only", options.only,
                    "Measure the cases whose name contains one of these words, comma-separated");
-    app.add_flag("--quick", options.quick, "Few samples: seconds instead of minutes, rough figures");
+    app.add_flag("--quick", options.quick, "Few samples: about a tenth of the time, rough figures");
     app.add_option("--runs", options.runs,
                    "Measure everything N times and report the median (default 1; with --acceptance 5)")
         ->check(CLI::Range(1, 100));

@@ -46,7 +46,7 @@ void add_host_options(CLI::App& app, Options& o, std::optional<double>& spin,
     app.add_option("--rtm-cpu", o.rtm_cpu, "core for rtm_host's tick threads");
     app.add_option("--tick-spin", spin,
                    "both hosts poll for this time before each tick [us] (100 while messages flow)");
-    app.add_option("--wait-mode", wait, "how both hosts wait for each other's calls");
+    app.add_option("--wait-mode", wait, "how both hosts wait for each other's calls (spin-then-futex)");
     app.add_flag("--low-latency-idle", idle, "both hosts keep the cores out of deep sleep states");
     app.add_flag("--lock-memory", lock, "both hosts lock their memory");
 }
@@ -87,7 +87,7 @@ Options parse_options(int argc, char** argv) {
     auto* drive =
         app.add_flag("--drive", o.drive,
                      "move the stick yourself, for an hour or --duration: with a gamepad, or on the\n"
-                     "page of `tandem monitor --control`; Ctrl-C ends the drive;\n"
+                     "page of `tandem monitor --control`; Ctrl-C ends the drive, without a report;\n"
                      "the report covers the last minutes, 6 to 12")
             ->excludes(lockstep)
             ->excludes(joystick);
@@ -104,7 +104,7 @@ Options parse_options(int argc, char** argv) {
     app.add_option("--plot", o.plot, "plot to this file, .svg or .png")->take_last();
     app.add_option("--json", o.json, "write the results to this file")->take_last();
     app.add_option("--keep", o.keep, "write profiles, traces and logs to this folder and keep them");
-    app.add_flag("--restart", o.restart, "restart a host that dies");
+    app.add_flag("--restart", o.restart, "restart a host that dies, in real time");
     app.add_option("--host-wait", o.host_wait, "time limit for a host to become ready, in seconds")
         ->check(options::number_between(0.1, 600.0))
         ->capture_default_str();

@@ -19,7 +19,8 @@ std::optional<OprosHostOptions> parse_opros_host_options(int argc, char** argv, 
     cli.add_option("--lockstep", options.lockstep_socket,
                    "Path of a Unix socket at which a driver requests each cycle; nothing runs on timers");
     cli.add_option("--node", options.node,
-                   "Run only the components with this <node_id>, and those without one")
+                   "Run only the components with this <node_id>, and those without one (the profile's "
+                   "<local_node_id>)")
         ->type_name("ID");
     cli.add_flag(
         "--strict", options.strict,

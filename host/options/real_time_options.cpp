@@ -20,7 +20,8 @@ void add_real_time_options(CLI::App& cli, RealTimeOptions& options) {
            "leave the component; at most 5 % of the period, and 10 % of a processor for all threads]")
         ->check(nonnegative_number());
     cli.add_option("--wait-mode", options.wait_mode,
-                   "How calls wait for the other host; same-core: both hosts on the processor --cpu")
+                   "How calls wait for the other host (spin-then-futex); same-core: both hosts on the "
+                   "processor --cpu")
         ->check(CLI::IsMember({"spin", "spin-then-futex", "futex", "same-core"}));
     cli.add_flag("--low-latency-idle", options.low_latency_idle, "Keep processors out of deep idle states");
     cli.add_flag("--lock-memory", options.lock_memory, "Lock the process in memory");

@@ -15,13 +15,14 @@ std::optional<RtmHostOptions> parse_rtm_host_options(int argc, char** argv, int&
     CLI::App cli{"Runs the RT-Components that an rtc.conf names"};
     cli.set_version_flag("--version", std::string("rtm_host ") + tandem::version);
     cli.add_option("-f", options.conf_file,
-                   "configuration file (default: $RTC_MANAGER_CONFIG, ./rtc.conf, /etc/rtc.conf)");
+                   "configuration file (default: $RTC_MANAGER_CONFIG, or the first of ./rtc.conf, "
+                   "/etc/rtc.conf and /etc/rtc/rtc.conf)");
     cli.add_option("-o", options.settings,
                    "a setting of rtc.conf, KEY:VALUE; overrides the file (repeatable)")
         ->allow_extra_args(false);
     cli.add_option("-p", options.port, "TCP port of the CORBA endpoint on the loopback interface");
     cli.add_flag("-d", options.master, "master manager: port 2810, and keep running without components");
-    cli.add_flag("-i", options.conf_file_may_be_missing, "ignore that the file of -f does not exist");
+    cli.add_flag("-i", options.conf_file_may_be_missing, "ignore a configuration file that does not exist");
     cli.add_flag("-a", options.no_corba_servant, "do not offer the manager as a CORBA object");
     cli.add_option("--lockstep", options.lockstep_socket,
                    "path of a Unix socket at which a driver requests each cycle; nothing runs on timers");

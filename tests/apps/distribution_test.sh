@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# What scripts say of other distributions, and of packages that cannot be installed.   distribution_test.sh ROOT
+# What scripts print on other distributions, and about packages that cannot be installed.   distribution_test.sh ROOT
 set -euo pipefail
 . "$1/apps/setup.sh"
 

@@ -50,10 +50,10 @@ void add_convert(CLI::App& bag, Action& selected) {
     auto options = std::make_shared<BagConvertOptions>();
     CLI::App* command = add_command(
         bag, "convert", "Converts the messages of a recording to CSV or JSON",
-        R"(Reads recordings made by tandem record. --json writes one line per message, in the order of arrival.
+        R"(Reads recordings made by Tandem. --json writes one line per message, in the order of arrival.
 --csv writes a table of one topic with one column per number and string (tm.sec, data[0]).
 An existing file is replaced, unless it is a recording.
-Exit code 1 if tandem record did not make the file, or if a part of it cannot be read; the rest is
+Exit code 1 if Tandem did not make the file, or if a part of it cannot be read; the rest is
 converted.)");
     command->add_option("FILE", options->file, "recording, an MCAP file")->required();
     auto* csv = command->add_flag("--csv", options->csv, "write a table of one topic");

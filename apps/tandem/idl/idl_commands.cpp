@@ -13,8 +13,9 @@ void add_idl_commands(CLI::App& tandem, Action& selected) {
     CLI::App* command = add_command(
         tandem, "idl2opros",
         "Writes the OPRoS service profile and port headers for the interfaces of an IDL file",
-        R"(For each interface I, writes IService.xml, II.h, IProvided.h and IRequired.h; writes the types to FTypes.h.
-Leaves out operations that have no counterpart in OPRoS and prints each with the reason.
+        R"(For each interface I, writes IService.xml, II.h, IProvided.h and IRequired.h; for FILE and each included
+file F with types, writes FTypes.h. Leaves out operations that have no counterpart in OPRoS and prints each
+with the reason.
 Exit code 1 if the IDL has errors.)");
     command->add_option("FILE", to_opros->file, "IDL file")->required();
     command->add_option("-o,--output", to_opros->folder, "folder to write to (.)")->type_name("DIR");
@@ -26,7 +27,8 @@ Exit code 1 if the IDL has errors.)");
     auto to_idl = std::make_shared<Opros2IdlOptions>();
     command = add_command(
         tandem, "opros2idl", "Writes the IDL for the services of an OPRoS service profile",
-        R"(Arguments passed by reference or pointer become inout. Non-blocking methods without a result become oneway.
+        R"(Arguments passed by a reference or pointer that is not const become inout, unless the profile says
+otherwise. Non-blocking methods without a result and such arguments become oneway.
 Exit code 1 if the profile is invalid, or if one of its types is neither a standard type nor defined in
 a data type profile.)");
     command->add_option("FILE", to_idl->file, "service profile (XML)")->required();

@@ -16,7 +16,8 @@ void add_profile(CLI::App& link, Action& selected) {
         R"(A and B are the folders of two built components, one of each model. Instead of a folder, you can
 give the OPRoS component's profile or the RTC's module. Connects ports that have the same name, or
 the only pair of ports whose types match. Prints each port left over with the reason. Writes
-DIR/opros and DIR/rtm. Exit code 1, without writing DIR, if no port can be connected.)");
+DIR/opros and DIR/rtm. Exit code 1, without writing DIR, if no port can be connected, unless
+--property share=... shows a component as an RTC.)");
     command->add_option("A", options->first, "folder of a component")->required();
     command->add_option("B", options->second, "folder of a component of the other model")->required();
     command
@@ -45,7 +46,8 @@ void add_link_check(CLI::App& link, Action& selected) {
         link, "check", "Prints which ports of the two hosts are joined, and why the others are not",
         R"(DIR is a folder for tandem run, with an application in opros/ and with rtm/rtc.conf. The hosts need not
 be running. Type signatures are those of share/doc/tandem/docs/wire_format.md. Operations of services are
-printed in the notation of their model. Exit code 1 if a connection of the application cannot be made.)");
+printed in the notation of their model. Exit code 1 if a connection of the application cannot be made, or if
+a component cannot be inspected.)");
     command->add_option("DIR", options->folder, "folder with opros/ and rtm/")->required();
     add_plugin_path(command, options->plugin_dirs);
     add_inspection_options(command, options->initialize, options->timeout_s, options->json);

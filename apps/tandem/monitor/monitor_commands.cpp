@@ -16,10 +16,10 @@ void add_monitor_command(CLI::App& tandem, Action& selected) {
 the page. There is no password: anyone who can reach the address can read names and values.
 Foxglove and Lichtblick connect to ws://ADDRESS:PORT.
 Without --control the monitor is read-only. With --control, the printed address contains a token.
-Clients with the token can activate, connect and configure RT-Components, record, and drive the
-wheelchair. With --systems they can also make systems of the built components in DIR, and run
-them. Through Foxglove's protocol, at ws://ADDRESS:PORT/?token=..., they can also publish to ports
-and call services.
+Clients with the token can activate, connect and configure RT-Components, start, stop, recover and
+configure OPRoS components, record, replay recordings, and drive the wheelchair. With --systems
+they can also make systems of the built components in DIR, and run them. Through Foxglove's
+protocol, at ws://ADDRESS:PORT/?token=..., they can also publish to ports and call services.
 Ends with Ctrl-C. Exit code 1 if it cannot listen at that address and port.)");
     command->add_option("LINK", options->links, "links to show, including links that do not exist yet (all)");
     command->add_option("--port", options->port, "TCP port; 0 selects a free one (8080)")

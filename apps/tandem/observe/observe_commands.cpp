@@ -23,7 +23,8 @@ void add_echo(CLI::App& tandem, Action& selected) {
     CLI::App* command = add_command(
         tandem, "echo", "Prints the messages of a link with the names of their members",
         std::string(passive_help) +
-            R"(Prints one line of JSON per message. The line begins with the port's name unless one PORT was given.
+            R"(Prints one line of JSON per message. The line begins with the port's name unless one PORT or
+--json was given.
 Messages overwritten before they were copied are counted on standard error.
 Exit code 1 if the link or port does not exist, or if --timeout passes without a message.)");
     add_link_and_ports(command, options->link, options->ports);

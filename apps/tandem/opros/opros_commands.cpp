@@ -36,7 +36,7 @@ shown with its state and connections. If there is a file of that name, write HOS
 Creates the component in a child process and reports its crash or hang as an error. For a
 composite, shows its components and the ports that it exports; for an application, its components
 and connections; for a service type or data type, its methods or fields.
-Exit code 1 if the component cannot be created, or if FILE is neither a library nor a profile.)");
+Exit code 1 if the component cannot be created, or if FILE is none of these.)");
     add_inspect_options(info, *options, "component library (X.so), profile (X.xml) or running component");
     info->callback([=, &selected] {
         selected = [options] {
@@ -76,8 +76,9 @@ void add_opros_build(CLI::App& opros, Action& selected) {
         opros, "build", "Builds a component from the sources in its folder",
         R"(Builds the sources in DIR and DIR/src, or those that its CMakeLists.txt, makefile or Visual C++
 project lists. If DIR has a CMake project, configures it, which executes its CMake code. The
-component profile in DIR, DIR/profile or the folder above gives the plugin its name. Writes the
-plugin beside the profile and changes nothing else. Exit code 1 if the build fails.)");
+component profile in DIR or DIR/profile gives the plugin its name; if there is none, the profile
+in one of the two folders above that has the folder's name. Writes the plugin beside the profile
+and changes nothing else. Exit code 1 if the build fails.)");
     add_build_options(command, *options,
                       "folder for the plugin and its profiles (the folder of the profile)");
     command

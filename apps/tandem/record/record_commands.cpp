@@ -29,7 +29,7 @@ Exit code 1 if a link or a port did not exist during the recording, or if the fi
 messages.
 Each port becomes a channel /LINK/PORT with its type as IDL. The channel /LINK/tandem/drops counts
 the messages that receivers missed and those that the recorder missed. The hosts' command lines,
-profiles and rtc.conf are stored in the file.
+application profiles and rtc.conf are stored in the file.
 Service calls become the channels /LINK/PORT/OPERATION/request, reply and failure. If a call's slot
 in shared memory was reused before the recorder looked, the call is counted but not recorded. Set
 TANDEM_CALL_HISTORY=1 in the environment of the hosts to keep 127 more calls readable.

@@ -28,13 +28,15 @@ part of the recording cannot be read, or no host is running that receives the re
     command
         ->add_option(
             "--in-place-of", options->in_place_of,
-            "what to replace: opros_host, rtm_host, or a component that a link shares (the absent host)")
+            "what to replace: opros_host, rtm_host, or a component that a link shares (the absent host; "
+            "required with --lockstep)")
         ->type_name("WHO");
     command->add_option("--link", options->link, "current name of the link, if the recording has one link")
         ->type_name("LINK");
     auto* rate = command
                      ->add_option("--rate", options->rate,
-                                  "speed relative to the recording; 0 replays as fast as possible (1)")
+                                  "speed relative to the recording; 0 replays as fast as possible (1; with "
+                                  "--lockstep 0)")
                      ->type_name("FACTOR")
                      ->check(options::number_between(0.0, 1000.0));
     command

@@ -16,12 +16,12 @@ void add_rtm_build(CLI::App& rtm, Action& selected) {
     auto options = std::make_shared<RtmBuildOptions>();
     CLI::App* command = add_command(
         rtm, "build", "Builds an RT-Component from the sources in its folder",
-        R"(Builds the sources in DIR and DIR/src, or those that its CMakeLists.txt or makefile lists, except files
-with a main(). Also uses the IDL files in DIR and DIR/idl, those in sub-folders, above DIR, in the rest of
-the repository and in folders of -I that a source or another IDL file includes, and the headers in these
-folders and in DIR/include.
-The function NAMEInit(RTC::Manager*) gives the plugin its name. If DIR has several modules, each is built.
-Writes the plugins to DIR and changes nothing else.
+        R"(Builds the sources in DIR and DIR/src, or those that its CMakeLists.txt, makefile or Visual C++ project
+lists, except files with a main(). Also uses the IDL files in DIR and DIR/idl, those in sub-folders, above
+DIR, in the rest of the repository and in folders of -I that a source or another IDL file includes, and the
+headers in these folders and in DIR/include.
+The function NAMEInit(RTC::Manager*), or the implementation_id beside rtc_init(), gives the plugin its name.
+If DIR has several modules, each is built. Writes the plugins to DIR and changes nothing else.
 Exit code 1 if a build fails.)");
     add_build_options(command, *options, "folder for the plugin (DIR)");
     command->add_option("--name", options->name, "module to build, if DIR has several (all)");

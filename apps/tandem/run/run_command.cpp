@@ -17,10 +17,12 @@ void add_run_command(CLI::App& tandem, Action& selected) {
 runs in that folder. Prints the output of both hosts with the host's name before each line. When one
 host ends, ends the other. If output cannot be written, for example on a full disk, the hosts continue,
 and a line says how many lines are missing.
-Exit code 0 if all hosts ended normally, 1 if one failed or was killed.)");
+Exit code 0 if all hosts ended normally, 1 if one failed or was killed and was not restarted.)");
     command->add_option("DIR", options->folder, "folder with opros/ and rtm/; one of them may be missing")
         ->required();
-    command->add_option("--restart", options->restart, "restart each host that dies, up to N times (0)")
+    command
+        ->add_option("--restart", options->restart,
+                     "restart each host that dies after it was ready, up to N times (0)")
         ->type_name("N")
         ->check(CLI::Range(0, 1000000));
     add_plugin_path(command, options->plugin_dirs);

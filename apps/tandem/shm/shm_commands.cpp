@@ -26,7 +26,7 @@ constexpr CommandHelp list_help{"Lists all segments: link, generation, size, own
   dead     has left or died; the pid is that of the previous process
   held     the segment cannot be read, and a running process has joined it
 `pid N of another namespace`: the process runs in another container, and N is its pid there.
-Segments of other users are listed but not opened. Damaged segments are listed with the reason.
+Segments of other users, at most 100, are listed but not opened. Damaged segments are listed with the reason.
 Exit code 0.)"};
 constexpr CommandHelp info_help{"Shows one segment: header, sides, and every ring, call queue and blob in it",
                                 "For the states of a side, see tandem shm list --help.\n"
@@ -58,7 +58,7 @@ Times are measured on a sample of the records and calls:
   service      the part of the round trip that the server takes
 Times are counted in buckets. A percentile is the upper end of its bucket, at most 25 % too high.
 Counters are read one after the other: the sum above is exact only while nothing is sent or received.
-Exit code 1 if the segment does not exist or cannot be read.)"};
+Without --watch, exit code 1 if the segment does not exist or cannot be read.)"};
 constexpr CommandHelp clean_help{
     "Removes segments that no running process holds",
     "Prints which segments it removed, which it kept, and why. Damaged segments are removed too. A segment\n"
@@ -97,7 +97,8 @@ void add_stats_command(CLI::App* shm, Action& selected) {
                      "one line per period")
         ->type_name("SECONDS")
         ->check(options::number_between(0.01, 86400.0));
-    stats->add_option("--count", options->count, "end --watch after this many periods")->needs("--watch");
+    stats->add_option("--count", options->count, "end --watch after printing this many times")
+        ->needs("--watch");
     stats->callback([=, &selected] { selected = [options] { return shm_stats(*options); }; });
 }
 

@@ -28,8 +28,9 @@ CLI::App* add_running_command(CLI::App& opros, const char* name, const char* bri
 
 void add_opros_list(CLI::App& opros, Action& selected) {
     auto options = std::make_shared<OprosClientOptions>();
-    add_running_command(opros, "list", "Lists the components of running hosts, with their states", *options,
-                        "A host that does not answer is listed as UNREACHABLE.")
+    add_running_command(
+        opros, "list", "Lists the components of running hosts, with their states", *options,
+        "A host that does not answer is listed as UNREACHABLE. Exit code 1 if no host answers.")
         ->callback([=, &selected] { selected = [options] { return opros_list(*options); }; });
 }
 

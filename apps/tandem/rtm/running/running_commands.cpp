@@ -35,9 +35,9 @@ void add_tls(CLI::App& command, RtmClientOptions& client) {
 constexpr const char* addresses =
     R"(COMPONENT is rtcname://HOST:PORT/PATH/NAME.rtc (a name server), rtcloc://HOST:PORT/NAME (a manager), a
 path PATH/NAME.rtc in the default name server, or a NAME. A NAME is looked up in the name servers and in
-this user's managers on this machine. With --nameserver or --manager only those are searched, and all of
-them must answer. A port is COMPONENT:PORT.
-Exit code 1 if a component or server does not exist or does not answer in time.)";
+this user's managers on this machine. With --nameserver or --manager only those are searched; a list of
+components fails unless each of them answers. A port is COMPONENT:PORT.
+Exit code 1 if a named component does not exist or does not answer in time, or if no server answers.)";
 
 // Adds a sub-command with the options common to all.
 CLI::App* add_running_command(CLI::App& rtm, const char* name, const char* brief, RtmClientOptions& client,
@@ -50,7 +50,7 @@ CLI::App* add_running_command(CLI::App& rtm, const char* name, const char* brief
         ->allow_extra_args(false);
     command
         ->add_option("--manager", client.managers,
-                     "HOST:PORT of a manager (repeatable; those found on this machine)")
+                     "HOST or HOST:PORT of a manager (repeatable; those found on this machine)")
         ->allow_extra_args(false);
     command->add_option("--timeout", client.timeout_s, "time limit for each call, in seconds (5)")
         ->check(options::number_between(0.1, 3600.));
@@ -136,7 +136,7 @@ void add_conf(CLI::App& rtm, Action& selected) {
     command->add_option("COMPONENT", options->options.component, "component, see below")->required();
     command->add_option("PARAMETER", options->options.values, "parameters to set, each as NAME=VALUE");
     command->add_option("--set", options->options.set,
-                        "configuration set to show or change (the active one)");
+                        "configuration set to show (all) or change (the active one)");
     command->add_option("--activate", options->options.activate, "configuration set to activate");
     run_when_chosen(command, selected, options, rtm_conf);
 }
@@ -184,7 +184,9 @@ member data: `42` is a complete TimedLong. `-` reads one value from each line of
     command->add_option("VALUE", *value, "value to send (repeatable)")->required();
     command->allow_extras();
     command->add_option("-n,--count", inject->options.count, "send all values this many times (1)");
-    command->add_option("--rate", inject->options.rate, "values per second (as fast as possible)")
+    command
+        ->add_option("--rate", inject->options.rate,
+                     "values per second (as fast as the component reads them)")
         ->check(options::number_between(0., 1e6));
     command->callback([=, &selected] {
         inject->options.values = {*value};
@@ -204,8 +206,8 @@ void add_record(CLI::App& rtm, Action& selected) {
         R"(Use this for components without a link; for links, tandem record works without a connection. Each port
 becomes a channel /COMPONENT/PORT with its type as IDL. Components do not wait for the recorder: their
 host queues up to 1024 messages per port. The channel /tandem/drops counts messages dropped by the
-recorder and by the queues of Tandem hosts; OpenRTM-aist does not report its own. Ends with Ctrl-C or
-SIGTERM. If the recorder is killed, the file is readable up to the last half second.)");
+recorder and by the queues of Tandem hosts; OpenRTM-aist does not report its own. Ends with Ctrl-C,
+SIGTERM or SIGHUP. If the recorder is killed, the file is readable up to the last half second.)");
     command->add_option("PORT", record->options.ports,
                         "COMPONENT:PORT, or COMPONENT for all its OutPorts (all OutPorts)");
     command
