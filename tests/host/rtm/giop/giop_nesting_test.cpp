@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Values and types that contain others many times over. omniORB 4.2 and 4.3 read each `any` within another one twice, so that a
-// request of 200 bytes takes a thread for years, and a TypeCode by recursion, until the stack ends.
-// host/rtm/runtime/workarounds/omniorb_nesting.cpp prevents both.
+// Values and types that contain others many times over. omniORB 4.2 reads each `any` within another one twice, so that a request
+// of 200 bytes takes a thread for years. omniORB 4.3 reads them by recursion, and both read a TypeCode so, until the stack ends.
+// host/rtm/runtime/workarounds/omniorb_nesting.cpp prevents this.
 #include "giop_client.hpp"
 #include "tests/host/rtm/manager_fixture.hpp"
 
@@ -78,8 +78,10 @@ TEST_CASE("Values and types of moderate nesting are read, and deeply nested ones
     Host host;
     CHECK(host.reply_status(nested_any(1)) == 0);
     CHECK(host.reply_status(nested_any(10)) == 0);
-    CHECK(host.reply_status(nested_any(11)) == 2);
-    CHECK(host.reply_status(nested_any(60)) == 2);
+    const bool counts_anys = omniORB::versionHex() < 0x04030000;
+    CHECK(host.reply_status(nested_any(11)) == (counts_anys ? 2 : 0));
+    CHECK(host.reply_status(nested_any(60)) == (counts_anys ? 2 : 0));
+    CHECK(host.reply_status(nested_any(10'000)) == 2);
     CHECK(host.reply_status(nested_any(1'000'000)) == 2);
     CHECK(host.reply_status(any_with_nested_type(32)) == 0);
     CHECK(host.reply_status(any_with_nested_type(33)) == 2);
