@@ -18,7 +18,7 @@ done
 cd "$root"
 say "configuring and building preset coverage"
 cmake --preset coverage >/dev/null
-targets=$(ninja -C build/coverage -t targets all | sed -n 's/^\(test_shm[a-z_]*\|test_fault[a-z_]*\|fuzz_segment\): .*/\1/p')
+targets=$(ninja -C build/coverage -t targets all | sed -n 's/^\(test_shm_[^:/]*\|test_fault_[^:/]*\|fuzz_segment\): .*/\1/p')
 # shellcheck disable=SC2086 # one target a word
 cmake --build --preset coverage --target $targets | { grep -v '^ninja: no work' || true; } | tail -n 1
 find build/coverage -name '*.gcda' -delete

@@ -118,6 +118,9 @@ def check_unit(root):
     unit = root / "lib/systemd/system/tandem@.service"
     text = unit.read_text(encoding="utf-8")
     expect("\nUser=tandem\n" in text, "the service does not run as the user tandem")
+    head, service = text.split("\n[Service]\n")
+    expect("\nStartLimitIntervalSec=0\n" in head, "systemd gives up a service that has failed five times")
+    expect(int(re.search(r"^RestartSec=(\d+)$", service, re.MULTILINE)[1]) >= 5, "a service that fails is started too often")
     unit.write_text(text.replace("ExecStart=/usr", f"ExecStart={root}/usr"), encoding="utf-8")
     said = run("systemd-analyze", "verify", "--man=no", "--recursive-errors=no", unit)
     expect("tandem@" not in said, said)

@@ -103,7 +103,7 @@ constexpr char profile[] = R"(<?xml version="1.0" encoding="UTF-8"?>
     <library_name>@NAME@.so</library_name>
     <impl_language>c++</impl_language>
   </execution_environment>
-  <!-- type: periodic, periodic-shared, aperiodic or passive; period in ms -->
+  <!-- type: periodic, periodic-exclusive, periodic-shared, aperiodic, aperiodic-loop or passive; period in ms -->
   <execution_semantics>
     <type>periodic</type>
     <period>100</period>

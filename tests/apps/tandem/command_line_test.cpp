@@ -46,6 +46,34 @@ TEST_CASE("the option for hosts in the help of tandem run exists in both hosts")
     }
 }
 
+TEST_CASE("the usage of tandem rtm disconnect shows one port or two") {
+    const Result help = tandem_program({"rtm", "disconnect", "--help"});
+    CHECK_THAT(help.output, Catch::Contains("tandem rtm disconnect [OPTIONS] PORT [OTHER]\n"));
+    for (const std::vector<std::string>& ports :
+         std::vector<std::vector<std::string>>{{}, {"A:a", "B:b", "C:c"}}) {
+        std::vector<std::string> arguments{"rtm", "disconnect"};
+        arguments.insert(arguments.end(), ports.begin(), ports.end());
+        const Result refused = tandem_program(arguments);
+        CHECK(refused.exit_code != 0);
+        CHECK_THAT(refused.errors, Catch::Contains(ports.empty() ? "PORT is required" : "C:c"));
+    }
+}
+
+TEST_CASE("the help of a command for running components explains COMPONENT only if the command takes one") {
+    for (const std::string model : {"opros", "rtm"}) {
+        std::size_t explained = 0;
+        for (const std::string command :
+             {"list", "tree", "info", "conf", "start", "activate", "connect", "cat"}) {
+            const Result help = tandem_program({model, command, "--help"});
+            const bool explains = help.output_contains("\nCOMPONENT is ");
+            INFO(model << " " << command);
+            explained += explains;
+            if (command == "list" || command == "tree") CHECK_FALSE(explains);
+        }
+        CHECK(explained >= 2);
+    }
+}
+
 TEST_CASE("tandem --version prints the version of the build") {
     const Result result = tandem_program({"--version"});
     CHECK(result.exit_code == 0);

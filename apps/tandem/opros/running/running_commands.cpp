@@ -10,7 +10,7 @@
 namespace tandem::command {
 namespace {
 
-// The last lines of each command's --help.
+// The last lines of --help of each command that takes COMPONENT.
 constexpr const char* names_of_components =
     R"(COMPONENT is the name of a component in the application of a running opros_host of this user. If several
 hosts have it, write HOST/COMPONENT with the process id or the application of the host, see tandem opros list.
@@ -18,12 +18,18 @@ Exit code 1 if there is no such component, if the host refuses, or if it does no
 
 CLI::App* add_running_command(CLI::App& opros, const char* name, const char* brief,
                               OprosClientOptions& client, const std::string& details) {
-    CLI::App* command =
-        add_command(opros, name, brief, details + (details.empty() ? "" : "\n") + names_of_components);
+    CLI::App* command = add_command(opros, name, brief, details);
     command->add_option("--timeout", client.timeout_s, "time limit for each request, in seconds (5)")
         ->check(options::number_between(0.1, 600.));
     command->add_flag("--json", client.json, "print JSON instead of text");
     return command;
+}
+
+// Adds a sub-command that takes components.
+CLI::App* add_component_command(CLI::App& opros, const char* name, const char* brief,
+                                OprosClientOptions& client, const std::string& details) {
+    return add_running_command(opros, name, brief, client,
+                               details + (details.empty() ? "" : "\n") + names_of_components);
 }
 
 void add_opros_list(CLI::App& opros, Action& selected) {
@@ -42,7 +48,7 @@ void add_opros_transitions(CLI::App& opros, Action& selected) {
     };
     auto add_transition = [&](const char* name, const char* brief, const char* details) {
         auto options = std::make_shared<Options>();
-        CLI::App* command = add_running_command(opros, name, brief, options->client, details);
+        CLI::App* command = add_component_command(opros, name, brief, options->client, details);
         command->add_option("COMPONENT", options->components, "components, see below")->required();
         command->callback([=, &selected, transition = std::string(name)] {
             selected = [=] { return opros_transition(options->client, options->components, transition); };
@@ -62,7 +68,7 @@ void add_opros_conf(CLI::App& opros, Action& selected) {
         std::string value;
     };
     auto options = std::make_shared<Options>();
-    CLI::App* command = add_running_command(
+    CLI::App* command = add_component_command(
         opros, "conf", "Shows properties of a component, and sets one", options->client,
         "The host sets the value between two cycles. Many components read a property only in their\n"
         "onInitialize or onStart.");

@@ -14,6 +14,7 @@
 #include <rtm/CORBA_RTCUtil.h>
 #include <rtm/NVUtil.h>
 #include <set>
+#include <vector>
 
 namespace tandem::command {
 namespace {
@@ -182,10 +183,12 @@ int rtm_conf(const RtmClientOptions& client_options, const ConfOptions& options)
         change_configuration(configuration.in(), options,
                              options.values.empty() || is_in_tandem_host(component.object.in()));
         // Prints the component's actual values, not the requested ones.
-        const nlohmann::json sets = sets_json(configuration.in());
+        nlohmann::json sets = sets_json(configuration.in());
+        if (!options.set.empty())
+            std::erase_if(sets.get_ref<nlohmann::json::array_t&>(),
+                          [&](const nlohmann::json& set) { return set["set"] != options.set; });
         if (client_options.json) return print_json(sets);
         for (const auto& set : sets) {
-            if (!options.set.empty() && set["set"] != options.set) continue;
             print_text(fmt::format("{}{}\n", set["set"].get<std::string>(),
                                    set["active"].get<bool>() ? " (active)" : ""));
             for (const auto& [name, value] : set["values"].items())

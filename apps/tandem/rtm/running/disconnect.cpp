@@ -48,9 +48,9 @@ void warn_of_readers(const RTC::ConnectorProfile& connection) {
 
 int rtm_disconnect(const RtmClientOptions& client_options, const DisconnectOptions& options) {
     const RtmClient client(client_options);
-    const RemotePort first = find_port(client, options.ports.front());
+    const RemotePort first = find_port(client, options.port);
     RemotePort second;
-    if (options.ports.size() > 1) second = find_port(client, options.ports[1]);
+    if (options.other) second = find_port(client, *options.other);
     nlohmann::json disconnected = nlohmann::json::array();
     call_remote(first.name, [&] {
         // The list is a copy, so ending a connection does not change it.

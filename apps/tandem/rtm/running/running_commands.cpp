@@ -31,19 +31,25 @@ void add_tls(CLI::App& command, RtmClientOptions& client) {
         ->envname("TANDEM_TLS_KEY");
 }
 
-// The last lines of each command's --help.
+// The last lines of --help of each command that takes COMPONENT or PORT.
 constexpr const char* addresses =
     R"(COMPONENT is rtcname://HOST:PORT/PATH/NAME.rtc (a name server), rtcloc://HOST:PORT/NAME (a manager), a
 path PATH/NAME.rtc in the default name server, or a NAME. A NAME is looked up in the name servers and in
-this user's managers on this machine. With --nameserver or --manager only those are searched; a list of
-components fails unless each of them answers. A port is COMPONENT:PORT.
+this user's managers on this machine. With --nameserver or --manager only those are searched.
+A port is COMPONENT:PORT.
 Exit code 1 if a named component does not exist or does not answer in time, or if no server answers.)";
 
+// The last lines of --help of `list` and `tree`.
+constexpr const char* listed_servers =
+    R"(Lists the components of the name servers and of this user's managers on this machine. With --nameserver
+or --manager only those are asked, and the command fails unless each of them answers.
+Exit code 1 if no server answers.)";
+
 // Adds a sub-command with the options common to all.
-CLI::App* add_running_command(CLI::App& rtm, const char* name, const char* brief, RtmClientOptions& client,
-                              const std::string& details = "") {
+CLI::App* add_client_command(CLI::App& rtm, const char* name, const char* brief, RtmClientOptions& client,
+                             const std::string& details) {
     CLI::App* command = rtm.add_subcommand(name, brief);
-    command->footer(details + (details.empty() ? "" : "\n") + addresses);
+    command->footer(details);
     command
         ->add_option("--nameserver", client.name_servers,
                      "HOST or HOST:PORT of a name server (repeatable; $RTCSH_NAMESERVERS or localhost)")
@@ -57,6 +63,12 @@ CLI::App* add_running_command(CLI::App& rtm, const char* name, const char* brief
     command->add_flag("--json", client.json, "print JSON instead of text");
     add_tls(*command, client);
     return command;
+}
+
+// Adds a sub-command that takes components or ports.
+CLI::App* add_running_command(CLI::App& rtm, const char* name, const char* brief, RtmClientOptions& client,
+                              const std::string& details = "") {
+    return add_client_command(rtm, name, brief, client, details + (details.empty() ? "" : "\n") + addresses);
 }
 
 // The options of a command, and those common to all.
@@ -76,11 +88,13 @@ void run_when_chosen(CLI::App* command, Action& selected, const std::shared_ptr<
 // list, tree and info: they show components, ports and connections.
 void add_listings(CLI::App& rtm, Action& selected) {
     auto list = std::make_shared<RtmClientOptions>();
-    add_running_command(rtm, "list", "Lists running components on this machine and in name servers", *list,
-                        "A component that does not answer is listed as UNREACHABLE.")
+    add_client_command(rtm, "list", "Lists running components on this machine and in name servers", *list,
+                       std::string("A component that does not answer is listed as UNREACHABLE.\n") +
+                           listed_servers)
         ->callback([=, &selected] { selected = [list] { return rtm_list(*list); }; });
     auto tree = std::make_shared<RtmClientOptions>();
-    add_running_command(rtm, "tree", "Lists components with their ports and connections", *tree)
+    add_client_command(rtm, "tree", "Lists components with their ports and connections", *tree,
+                       listed_servers)
         ->callback([=, &selected] { selected = [tree] { return rtm_tree(*tree); }; });
     auto info = std::make_shared<Running<std::string>>();
     CLI::App* command = add_running_command(
@@ -123,7 +137,8 @@ void add_connections(CLI::App& rtm, Action& selected) {
     command = add_running_command(rtm, "disconnect",
                                   "Disconnects all connections of a port, or those between two ports",
                                   disconnect->client);
-    command->add_option("PORT", disconnect->options.ports, "one port or two")->required()->expected(1, 2);
+    command->add_option("PORT", disconnect->options.port, "port to disconnect")->required();
+    command->add_option("OTHER", disconnect->options.other, "end only connections with this port (all)");
     command->add_option("--id", disconnect->options.id, "only the connection with this id");
     run_when_chosen(command, selected, disconnect, rtm_disconnect);
 }

@@ -6,6 +6,9 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -39,10 +42,11 @@ int rtm_connect(const RtmClientOptions& client_options, const ConnectOptions& op
 
 /// Options of `tandem rtm disconnect`.
 struct DisconnectOptions {
-    std::vector<std::string> ports; ///< one: ends all its connections; two: ends those between them
-    std::string id;
+    std::string port;
+    std::optional<std::string> other; ///< without it, all connections of `port` end
+    std::string id;                   ///< empty: any
 };
-/// Ends the matching connections of the first port. Throws if there are none.
+/// Ends the matching connections of the port. Throws if there are none.
 int rtm_disconnect(const RtmClientOptions& client_options, const DisconnectOptions& options);
 
 /// Options of `tandem rtm conf`. Without `values` and `activate`, it only prints.

@@ -3,6 +3,7 @@
 #include "tests/host/opros/engine/folder.hpp"
 
 #include <algorithm>
+#include <fstream>
 
 using tandem::test::tandem_program;
 
@@ -17,6 +18,23 @@ TEST_CASE("tandem opros new writes a component and prints the next steps") {
     CHECK(made.output_contains("tandem opros build"));
     for (const char* file : {"Arm_2.h", "Arm_2.cpp", "Arm_2.xml", "Arm_2App.xml", "CMakeLists.txt"})
         CHECK(std::filesystem::file_size(folder.path() / "Arm_2" / file) > 50);
+}
+
+TEST_CASE("the profile of tandem opros new lists every execution type that hosts accept") {
+    const Folder folder;
+    tandem_program({"opros", "new", "Arm", "--in", folder.path()});
+    const auto file = folder.path() / "Arm" / "Arm.xml";
+    std::ifstream in(file);
+    std::string profile(std::istreambuf_iterator<char>(in), {});
+    const std::string begin = "<!-- type: ", type = "<type>periodic<";
+    const auto comment = profile.find(begin);
+    REQUIRE(comment != std::string::npos);
+    const std::string listed = profile.substr(comment + begin.size(),
+                                              profile.find_first_of(";\n", comment) - comment - begin.size());
+    profile.replace(profile.find(type), type.size(), "<type>none<");
+    folder.write("Arm/Arm.xml", profile);
+    CHECK_THAT(tandem_program({"opros", "info", file}).errors,
+               Catch::Contains("execution type 'none' is unknown, expected " + listed + "\n"));
 }
 
 TEST_CASE("tandem opros new refuses an invalid name in one line and creates no files") {

@@ -301,6 +301,11 @@ TEST_CASE(
     CHECK(other.host.wait_for_output("uses step 6\n"));
     // Setting values of another set does not change the active set.
     CHECK(conf({"step=8", "--set", "other"}).output_contains("other\n  step=8\n"));
+    // --set limits what is shown, in JSON, too.
+    CHECK(conf({"--set", "other"}).output == "other\n  step=8\n");
+    CHECK(conf({"--set", "other", "--json"}).json() ==
+          nlohmann::json::parse(R"([{"set": "other", "active": false, "values": {"step": "8"}}])"));
+    CHECK(conf({"--json"}).json().size() == 2);
     CHECK(conf({"step=9"}).output_contains("default (active)\n  level=2\n  size=3\n  step=9\n"));
     CHECK(other.host.wait_for_output("uses step 9\n"));
     CHECK(conf({"--activate", "other"}).output_contains("other (active)\n  step=8\n"));

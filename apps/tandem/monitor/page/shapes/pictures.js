@@ -38,12 +38,15 @@ export function sizeIn(pixels) {
   return pixels.length >= 24 ? [view.getUint32(16), view.getUint32(20)] : null; // IHDR is the first chunk of a PNG
 }
 
-/** The places of red, green and blue within a pixel of so many bytes; the second byte of 16 bits is the more significant one. */
+/**
+ * Returns the places of red, green and blue within a pixel of so many bytes; the second byte of 16 bits is the more significant one.
+ * CF_RGB is 1 in the IDL of OpenRTM-aist and 2 in that of hrpsys. The other number is CF_GRAY there, with one byte per pixel.
+ */
 function colourPlaces(bytes, format) {
   if (bytes === 1) return [0, 0, 0];
   if (bytes === 2) return [1, 1, 1];
   if (bytes !== 3 && bytes !== 4) return null;
-  return /rgb|^format 2$/i.test(format) ? [0, 1, 2] : [2, 1, 0];
+  return /rgb|^format [12]$/i.test(format) ? [0, 1, 2] : [2, 1, 0];
 }
 
 /** Returns the colours as RGBA, or null if the bytes do not fit the sizes. */

@@ -4,12 +4,22 @@
 const mostLines = 5000;
 const ranks = {trace: 0, debug: 0, info: 1, warn: 2, warning: 2, error: 3, critical: 3, err: 3};
 
-/** Returns what a line of a log says: {at, time, level, rank, component, text}; `at` with the date. Other programs write other lines, which have only a text. */
-export function lineIn(text) {
+/**
+ * Returns what a line of a log says: {at, time, level, rank, program, component, text}; `at` with the date. Other programs write
+ * other lines, which have only a text. `program` is the host that `tandem run` names before each line of a host; else it is empty.
+ */
+export function lineIn(line) {
+  const [, program = '', text] = line.match(/^(?:(rtm_host|opros_host) +\| )?(.*)$/);
   const found = text.match(/^\[(\d{4}-\d\d-\d\d) (\d\d:\d\d:\d\d\.\d+)\] \[(\w+)\] ([^:]*): (.*)$/);
-  if (!found) return {at: '', time: '', level: '', rank: 1, component: '', text};
+  if (!found) return {at: '', time: '', level: '', rank: 1, program, component: '', text};
   const [, date, time, level, component, rest] = found;
-  return {at: `${date} ${time}`, time, level, rank: ranks[level.toLowerCase()] ?? 1, component, text: rest};
+  return {at: `${date} ${time}`, time, level, rank: ranks[level.toLowerCase()] ?? 1, program, component, text: rest};
+}
+
+/** Returns the hosts, each with its process id, that may have written a line of their common log. */
+function writersOf({program}, hosts) {
+  if (program === '') return hosts.join(', ');
+  return hosts.filter((host) => host.startsWith(`${program} `)).join(', ') || program; // the host may have ended since
 }
 
 export class LogStore {
@@ -24,7 +34,7 @@ export class LogStore {
       for (const text of lines.split('\n').filter((each) => each !== '')) {
         const line = lineIn(text);
         at = line.at ||= at;
-        this.lines.push({number: this.next++, host: hosts.join(', '), ...line});
+        this.lines.push({number: this.next++, host: writersOf(line, hosts), ...line});
       }
     }
     if (this.next === before) return false;

@@ -72,6 +72,9 @@ test("poses, distances and pictures are recognized by their members", async () =
       ranges: [rangesIn({ ranges: [1], config: { minAngle: 0, angularRes: 1 } }) !== null, rangesIn({ ranges: [1] }), rangesIn("x")],
       points: pointsAround({ ranges: [1, 20, "nan", 2], config: { minAngle: 0, angularRes: 0, minRange: 0.1, maxRange: 10 } }),
       bgr: [...coloursOf({ width: 1, height: 1, format: "bitmap", pixels: Uint8Array.of(1, 2, 3) })],
+      // CF_RGB is 1 in the IDL of OpenRTM-aist and 2 in that of hrpsys; 5 is a Windows bitmap in the former.
+      numbered: [1, 2, 5, 12].map((number) => coloursOf({ width: 1, height: 1, format: `format ${number}`, pixels: Uint8Array.of(1, 2, 3) })[0]),
+      numberedGrey: [1, 2].map((number) => [...coloursOf({ width: 1, height: 1, format: `format ${number}`, pixels: Uint8Array.of(7) })]),
       grey: [...grey],
       short: coloursOf({ width: 100, height: 100, format: "", pixels: Uint8Array.of(1) }),
       sizes: [sizeIn(jpeg), sizeIn(jpeg.subarray(0, 12)), sizeIn(large.subarray(0, 20))], large: [view.canvas.hidden, view.caption.textContent],
@@ -79,7 +82,7 @@ test("poses, distances and pictures are recognized by their members", async () =
     };
   });
   assert.deepEqual(result, { poses: ["data.heading", "heading_deg", "data.orientation.y", null, null], ranges: [true, null, null], points: [[1, 0], [2, 0]],
-    bgr: [3, 2, 1, 255], grey: [7, 7, 7, 255, 9, 9, 9, 255], short: null, compressed: ["image/jpeg", null],
+    bgr: [3, 2, 1, 255], numbered: [1, 1, 3, 3], numberedGrey: [[7, 7, 7, 255], [7, 7, 7, 255]], grey: [7, 7, 7, 255, 9, 9, 9, 255], short: null, compressed: ["image/jpeg", null],
     sizes: [[320, 240], null, null], large: [true, "✕ its header says 65535 × 65535 pixels: too many to be shown"] });
 });
 

@@ -134,10 +134,30 @@ test("the log has the lines of the hosts, by level and text", async () => {
     return { line: lineIn("[2026-01-02 03:04:06.000] [warn] rtm_host: a: b"), offsets: store.offsets, all: store.select(0, "", 10).count,
       bad: store.select(3, "", 10).lines.map(({ text: of }) => of), found: store.select(0, "LEG", 10).lines.map(({ text: of }) => of) };
   });
-  assert.deepEqual(result.line, { at: "2026-01-02 03:04:06.000", time: "03:04:06.000", level: "warn", rank: 2, component: "rtm_host", text: "a: b" });
+  assert.deepEqual(result.line, { at: "2026-01-02 03:04:06.000", time: "03:04:06.000", level: "warn", rank: 2, program: "", component: "rtm_host", text: "a: b" });
   assert.deepEqual([result.offsets, result.all, result.bad, result.found], [{ a: 90 }, 3, ["stuck"], ["fine"]]);
   await page.locator("#events-section").screenshot({ path: join(process.env.TANDEM_PICTURES, "log.png") });
   assert.deepEqual(page.errors, []);
+});
+
+test("the page says how to write all lines of the hosts to a file", async () => {
+  // tandem run prints the lines of the hosts to standard output, and its own to standard error.
+  assert.deepEqual(await page.locator("#log-where code").allTextContents(), ["tandem run DIR &> run.log", "rtm_host 2> FILE"]);
+});
+
+test("the log of tandem run has the level and the host of each line", async () => {
+  const result = await page.evaluate(async () => {
+    const { LogStore } = await import("./system/logs.js");
+    const store = new LogStore(), text = "rtm_host   | [2026-01-02 03:04:05.000] [error] Arm: stuck | bent\n" +
+      "opros_host | [2026-01-02 03:04:06.000] [warn] Leg: late\nrtm_host   | ready\ntandem run: all hosts are ready\n";
+    store.take([{ id: "a", hosts: ["opros_host 2", "rtm_host 1"], text, next: 170 }]);
+    store.take([{ id: "b", hosts: ["opros_host 3"], text: "rtm_host   | [2026-01-02 03:04:07.000] [info] Arm: it has ended since\n", next: 70 }]);
+    const texts = (rank, of = "") => store.select(rank, of, 10).lines.reverse().map(({ level, host, component, text: line }) => [level, host, component, line]);
+    return { warnings: texts(2), all: texts(0), rtm: texts(2, "rtm_host") };
+  });
+  const stuck = ["error", "rtm_host 1", "Arm", "stuck | bent"], late = ["warn", "opros_host 2", "Leg", "late"];
+  assert.deepEqual(result, { warnings: [stuck, late], rtm: [stuck], all: [stuck, late, ["", "rtm_host 1", "", "ready"],
+    ["", "opros_host 2, rtm_host 1", "", "tandem run: all hosts are ready"], ["info", "rtm_host", "Arm", "it has ended since"]] });
 });
 
 test("parameters get the widgets that their component declares", async () => {
