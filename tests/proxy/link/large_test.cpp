@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Messages of megabytes across a link: by loan, both ways, and what happens to those that do not fit.
-#include "captured_log.hpp"
 #include "link_side.hpp"
 #include "tests/shm/fixture.hpp"
 #include "tests/shm/small_shm.hpp"
+#include "tests/support/captured_log.hpp"
 #include "tests/support/skip.hpp"
 
 #include <numeric>
@@ -11,6 +11,7 @@
 using namespace tandem;
 using namespace tandem::link;
 using namespace tandem::link::test;
+using tandem::test::CapturedLog;
 
 namespace {
 
