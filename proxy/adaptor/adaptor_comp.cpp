@@ -99,7 +99,11 @@ ReturnType AdaptorComp::onInitialize() {
 void AdaptorComp::report_unknown_properties() {
     std::vector<std::string> names;
     for (const auto& [name, value] : getPropertyMap()) names.push_back(name);
-    const auto lines = find_unknown_properties(names);
+    report_useless(find_unknown_properties(names));
+}
+
+/// Takes a line for each setting without effect. Throws std::runtime_error with the first one if `strict` is set.
+void AdaptorComp::report_useless(const std::vector<std::string>& lines) {
     if (settings_.strict && !lines.empty()) throw std::runtime_error(lines.front());
     for (const auto& line : lines) {
         log::error("{}: {}", getId(), line);
@@ -109,7 +113,9 @@ void AdaptorComp::report_unknown_properties() {
 
 void AdaptorComp::create_link() {
     shared_ = std::make_unique<engine::SharedComponents>(getId(), settings_.call_timeout);
-    own_ports_ = shared_->find(settings_.share, settings_.interfaces, directory());
+    std::vector<std::string> useless;
+    own_ports_ = shared_->find(settings_.share, settings_.interfaces, directory(), useless);
+    report_useless(useless);
     own_ports_.model = model;
     link::LinkOptions options;
     options.name = settings_.link;
@@ -225,8 +231,10 @@ ReturnType AdaptorComp::onDestroy() {
 
 // ---- ports
 
+/// Throws std::runtime_error if a property has no effect and `strict` is set.
 void AdaptorComp::create_mirror_ports() {
     const std::lock_guard lock(mutex_);
+    report_useless(mirrors_->find_useless_properties(peer_ports_));
     mirrors_->update(peer_ports_, *this);
     mirrors_created_ = true;
     if (link_->is_up())

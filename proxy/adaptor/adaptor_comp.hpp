@@ -69,6 +69,7 @@ class AdaptorComp final : public Component, public engine::DirectoryUser, privat
     link::Reply execute_command(const link::Request&);
 
     void report_unknown_properties();
+    void report_useless(const std::vector<std::string>& lines);
     void create_link();
     void wait_for_peer(std::chrono::milliseconds timeout);
     void close_link();

@@ -2,7 +2,7 @@
 #include "proxy/adaptor/mirror_ports.hpp"
 
 #include "host/log/log.hpp"
-#include "host/process/published/notices.hpp"
+#include "proxy/adaptor/archive/refusal_record.hpp"
 #include "proxy/adaptor/engine/capabilities.hpp"
 #include "proxy/adaptor/engine/ports.hpp"
 #include "proxy/adaptor/property_check.hpp"
@@ -20,18 +20,9 @@ namespace {
 // A process that shares ever more ports under new names must not use up the memory of this process.
 constexpr std::size_t max_mirrors = 4096;
 
-void report_property(const std::string& line) {
-    log::error("{}", line);
-    process::publish_notice(process::NoticeKind::setting, line);
-}
-
 } // namespace
 
 void MirrorPorts::update(const link::PortTable& peer, Component& owner) {
-    if (mirrors_.empty()) {
-        warn_of_wrong_event_ports(peer, owner.getId());
-        warn_of_missing_ports(peer, owner.getId());
-    }
     if (!engine::has_changing_ports && std::exchange(updated_, true)) return log_changes(peer, owner.getId());
     for (const auto& port : peer.ports) log_changed_type(port, owner.getId());
     for (auto& [name, mirror] : mirrors_) {
@@ -54,22 +45,19 @@ void MirrorPorts::update(const link::PortTable& peer, Component& owner) {
     }
 }
 
-void MirrorPorts::warn_of_wrong_event_ports(const link::PortTable& peer, const std::string& owner) const {
-    for (const auto& name : settings_.event_ports)
-        if (const auto* port = peer.find(name); !port || !link::is_data_port(port->kind))
-            report_property(fmt::format(
-                "{}: property 'event_ports' names '{}', which is not a data port of {}{}", owner, name,
-                peer.component_names(), port ? "" : "; it is an event port when it is added"));
-}
-
-void MirrorPorts::warn_of_missing_ports(const link::PortTable& peer, const std::string& owner) const {
+std::vector<std::string> MirrorPorts::find_useless_properties(const link::PortTable& peer) const {
     std::vector<std::string> properties;
     for (const auto& [port, names] : settings_.names) properties.push_back("names." + port);
     for (const auto& [port, operations] : settings_.operations) properties.push_back("operations." + port);
     for (const auto& [port, text] : settings_.conversions) properties.push_back("convert." + port);
     for (const auto& [property, value] : settings_.policies) properties.push_back(property);
-    for (const auto& line : find_properties_without_port(properties, peer))
-        report_property(owner + ": " + line);
+    auto lines = find_properties_without_port(properties, peer);
+    for (const auto& name : settings_.event_ports)
+        if (const auto* port = peer.find(name); !port || !link::is_data_port(port->kind))
+            lines.push_back(fmt::format("property 'event_ports' names '{}', which is not a data port of {}{}",
+                                        name, peer.component_names(),
+                                        port ? "" : "; it is an event port when it is added"));
+    return lines;
 }
 
 /// Returns nullptr if there is no mirror of exactly this port.
@@ -185,10 +173,9 @@ std::function<void(engine::ArrivalListener*)> MirrorPorts::listen_to(const link:
 }
 
 std::string MirrorPorts::first_refusal() const {
-    for (const auto& port : inputs_)
-        if (auto refusal = port->first_refusal(); !refusal.empty()) return refusal;
-    for (const auto& port : outputs_)
-        if (auto refusal = port->first_refusal(); !refusal.empty()) return refusal;
+    for (const auto& [name, mirror] : mirrors_)
+        if (const auto* record = dynamic_cast<const RefusalRecord*>(mirror.port))
+            if (auto refusal = record->first_refusal(); !refusal.empty()) return refusal;
     return "";
 }
 

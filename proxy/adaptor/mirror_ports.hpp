@@ -39,8 +39,10 @@ class MirrorPorts {
     /// Returns the mirror of the peer's required service port of this name; nullptr if there is none. [any-thread]
     engine::RequiredPort* find_required(std::string_view name) const { return required_.find(name); }
     engine::RequiredPort* find_required(std::uint64_t port_id) const { return required_.find(port_id); }
-    /// Returns the reason of the first refused connection; empty if none was refused.
+    /// Returns the reason of a refused connection; empty if none was refused.
     std::string first_refusal() const;
+    /// Returns a line for each property of a port that has no effect with the ports in the peer's table.
+    std::vector<std::string> find_useless_properties(const link::PortTable& peer) const;
 
   private:
     struct Mirror {
@@ -49,8 +51,6 @@ class MirrorPorts {
         bool shown = true;              ///< the owner has this port
         std::unique_ptr<Port> hidden{}; ///< a service port, while the owner does not have it
     };
-    void warn_of_wrong_event_ports(const link::PortTable& peer, const std::string& owner) const;
-    void warn_of_missing_ports(const link::PortTable& peer, const std::string& owner) const;
     Mirror* find_mirror(const link::Port& port);
     void log_changed_type(const link::Port& port, const std::string& owner);
     void set_policy(const link::Port& port);

@@ -33,7 +33,7 @@ struct Settings {
     std::map<std::string, std::vector<link::ServiceOperation>> operations;
     std::map<std::string, std::string>
         policies;        ///< `keep_last`, `wait_ms`, `deadline_ms`, and `.PORT` for one port
-    bool strict = false; ///< `strict`: a refused connection is an error when the component is started
+    bool strict = false; ///< `strict`: a setting without effect or a refused connection prevents the start
     std::string group;   ///< `group`: may join the link, like the owner; empty: only the owner
 
     /// Returns the conversion requested for the port; empty if there is none.

@@ -15,11 +15,9 @@ MirrorInPort::MirrorInPort(link::Port peer, link::ChannelWriter& channel, std::s
 bool MirrorInPort::checkType(opros_any& sample) {
     auto check = check_type(sample, peer_, true, convert_);
     type_error_ = check.error;
+    record_refusal(check.error);
+    if (!check.error.empty()) return false;
     const std::lock_guard lock(encodings_mutex_);
-    if (!check.error.empty()) {
-        if (first_refusal_.empty()) first_refusal_ = check.error;
-        return false;
-    }
     if (std::none_of(encodings_.begin(), encodings_.end(),
                      [&](const auto& each) { return each->type == sample.type(); })) {
         const bool converts = check.conversion || check.set_time || check.pictures;
@@ -30,11 +28,6 @@ bool MirrorInPort::checkType(opros_any& sample) {
     sole_encoding_.store(encodings_.size() == 1 ? encodings_.front().get() : nullptr,
                          std::memory_order_release);
     return true;
-}
-
-std::string MirrorInPort::first_refusal() const {
-    const std::lock_guard lock(encodings_mutex_);
-    return first_refusal_;
 }
 
 /// Needed only if ports of several types push here, because the name costs an allocation.

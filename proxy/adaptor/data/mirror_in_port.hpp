@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/rt/rehearsal.hpp"
+#include "proxy/adaptor/archive/refusal_record.hpp"
 #include "proxy/adaptor/archive/type_check.hpp"
 #include "proxy/link/channel/channel.hpp"
 #include "proxy/link/protocol/port_table.hpp"
@@ -20,7 +21,7 @@ namespace tandem::adaptor {
 /// pushing thread, and never blocks. The channel's ring overwrites old messages, so a short message is encoded into a
 /// buffer of the ring and copied from there when it is published. A message that is too long for the ring is encoded in the
 /// chunk of shared memory in which it travels. Several ports with different types may push here.
-class MirrorInPort final : public InputDataPortInterface, public rt::Rehearsable {
+class MirrorInPort final : public InputDataPortInterface, public rt::Rehearsable, public RefusalRecord {
   public:
     /// `peer` is the port's entry in the peer's table; `convert` is that of check_type(). The channel must outlive this
     /// port.
@@ -37,8 +38,6 @@ class MirrorInPort final : public InputDataPortInterface, public rt::Rehearsable
     bool checkType(opros_any& sample) override;
     bool checkType(DataPort*) override { return true; }
     std::string typeError() const override { return type_error_; }
-    /// Returns the reason of the first refused connection; empty if none was refused.
-    std::string first_refusal() const;
 
   private:
     struct Encoding {
@@ -60,8 +59,6 @@ class MirrorInPort final : public InputDataPortInterface, public rt::Rehearsable
     mutable std::mutex encodings_mutex_;
     std::vector<std::unique_ptr<Encoding>> encodings_; ///< of the connected ports; only appended to
     std::atomic<Encoding*> sole_encoding_{nullptr};    ///< nullptr: none, or several
-    std::string first_refusal_;
-
     std::string type_error_;
 
     std::mutex conversion_mutex_;     ///< the two below, and the conversions

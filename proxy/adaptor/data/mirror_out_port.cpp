@@ -38,14 +38,8 @@ bool MirrorOutPort::checkType(DataPort* target) {
         remove(taps_.size() - 1);
     }
     type_error_ = std::move(error);
-    const std::lock_guard lock(listeners_mutex_);
-    if (first_refusal_.empty()) first_refusal_ = type_error_;
+    record_refusal(type_error_);
     return type_error_.empty();
-}
-
-std::string MirrorOutPort::first_refusal() const {
-    const std::lock_guard lock(listeners_mutex_);
-    return first_refusal_;
 }
 
 /// The host adds a connection right after it has had its target checked.

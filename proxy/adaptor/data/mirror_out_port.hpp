@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "proxy/adaptor/archive/refusal_record.hpp"
 #include "proxy/adaptor/data/out_tap.hpp"
 #include "proxy/link/channel/channel.hpp"
 #include "proxy/link/protocol/port_table.hpp"
@@ -18,7 +19,7 @@ namespace tandem::adaptor {
 
 /// Mirrors an output data port of the peer. It pushes nothing: each connected OPRoS input port reads in its component's
 /// thread, through its source, an OutTap. The link's doorbell tells an event-driven consumer when to read.
-class MirrorOutPort final : public OutputDataPortInterface, private DataPortListener {
+class MirrorOutPort final : public OutputDataPortInterface, public RefusalRecord, private DataPortListener {
   public:
     /// Sets the listener for arrived messages; nullptr: none. On return the earlier one is not in use. With a single
     /// target, this is the target's own listener, whose thread may wait in the link.
@@ -40,8 +41,6 @@ class MirrorOutPort final : public OutputDataPortInterface, private DataPortList
     /// typeError() then has the reason. Otherwise becomes the target's source.
     bool checkType(DataPort* target) override;
     std::string typeError() const override { return type_error_; }
-    /// Returns the reason of the first refused connection; empty if none was refused.
-    std::string first_refusal() const;
     void addConnection(IDataPortLink* connection) override;
     void removeConnection(IDataPortLink* connection) override;
     void clearConnection() override;
@@ -71,9 +70,9 @@ class MirrorOutPort final : public OutputDataPortInterface, private DataPortList
     std::vector<std::unique_ptr<OutTap>>
         taps_;                           ///< changed with both locks: of the channel and of the listeners
     bool has_other_targets_ = false;     ///< changed with taps_
-    mutable std::mutex listeners_mutex_; ///< the taps' listeners, first_refusal_
+    mutable std::mutex listeners_mutex_; ///< the taps' listeners
     DataPortListener* told_ = nullptr;   ///< the last argument of set_listener_
-    std::string type_error_, first_refusal_;
+    std::string type_error_;
 };
 
 } // namespace tandem::adaptor

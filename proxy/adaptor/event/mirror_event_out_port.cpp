@@ -35,6 +35,7 @@ bool MirrorEventOutPort::checkType(EventPort* target) {
     if (type_error_.empty() && !connections_.empty() && sample.type() != content_.type())
         type_error_ = fmt::format("port '{}': it is connected already, with events of content {}", peer_.name,
                                   content_.type());
+    record_refusal(type_error_);
     if (type_error_.empty() && connections_.empty()) {
         content_ = sample;
         pictures_ = pictures_in(message_of(std::move(content)));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/process/log_throttle.hpp"
+#include "proxy/adaptor/archive/refusal_record.hpp"
 #include "proxy/link/channel/channel.hpp"
 #include "proxy/link/protocol/port_table.hpp"
 #include "proxy/wire/type.hpp"
@@ -20,7 +21,9 @@ namespace tandem::adaptor {
 
 /// Mirrors an output data port of the peer as an event port. Each message becomes an event for all connected ports. The
 /// link's notifier thread puts it into the receivers' queues.
-class MirrorEventOutPort final : public OutputEventPortInterface, private DataPortListener {
+class MirrorEventOutPort final : public OutputEventPortInterface,
+                                 public RefusalRecord,
+                                 private DataPortListener {
   public:
     /// Sets the listener for arrived messages; nullptr: none. On return the earlier one is not in use.
     using SetListener = std::function<void(DataPortListener*)>;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "proxy/adaptor/archive/refusal_record.hpp"
 #include "proxy/adaptor/engine/capabilities.hpp"
 #include "proxy/adaptor/engine/explaining_port.hpp"
 #include "proxy/adaptor/event/event_content.hpp"
@@ -14,7 +15,7 @@
 namespace tandem::adaptor {
 
 /// The common part of the ports that take events for the peer.
-class MirrorEventPortBase : public engine::ExplainingPort<InputEventPortInterface> {
+class MirrorEventPortBase : public engine::ExplainingPort<InputEventPortInterface>, public RefusalRecord {
   public:
     /// `peer` is the port's entry in the peer's table. The channel must outlive this port.
     MirrorEventPortBase(link::Port peer, link::ChannelWriter& channel)
@@ -26,10 +27,10 @@ class MirrorEventPortBase : public engine::ExplainingPort<InputEventPortInterfac
 
     /// Called when the host connects this port. Returns whether the type of the event's content fits.
     bool checkType(EventPort* source) override {
-        return !engine::ports_show_content || accept(content_of(*source));
+        return !engine::ports_show_content || check(content_of(*source));
     }
     /// Called by the source with an event of its type when the host connects this port.
-    bool checkType(Event* event) override { return engine::ports_show_content || accept(content_of(*event)); }
+    bool checkType(Event* event) override { return engine::ports_show_content || check(content_of(*event)); }
 
   protected:
     const link::Port peer_;
@@ -38,6 +39,11 @@ class MirrorEventPortBase : public engine::ExplainingPort<InputEventPortInterfac
   private:
     /// Returns whether events with content of the sample's type cross. Sets the type error.
     virtual bool accept(const opros_any& sample) = 0;
+    bool check(const opros_any& sample) {
+        if (accept(sample)) return true;
+        record_refusal(type_error());
+        return false;
+    }
 };
 
 } // namespace tandem::adaptor

@@ -49,6 +49,7 @@ std::string MirrorProvidedPort::bindMethod(Method* required) {
         known = bindings_.back().get();
     }
     current_.add(name, *known, id_of(*required));
+    record_refusal(known->problem);
     return known->problem;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "proxy/adaptor/archive/refusal_record.hpp"
 #include "proxy/adaptor/names/peer_names.hpp"
 #include "proxy/adaptor/service/method_types.hpp"
 #include "proxy/link/link.hpp"
@@ -21,7 +22,7 @@ namespace tandem::adaptor {
 /// waits for the reply, at most `call_timeout`. Oneway operations and non-blocking methods without a result do not wait. A
 /// failure is thrown as MethodInvokeException, one line. The component's own serialization encodes the arguments; no stub
 /// is compiled.
-class MirrorProvidedPort final : public ProvidedServicePort {
+class MirrorProvidedPort final : public ProvidedServicePort, public RefusalRecord {
   public:
     MirrorProvidedPort(link::Port peer, link::Link& link, std::chrono::milliseconds call_timeout,
                        PeerNames names = {});

@@ -85,8 +85,11 @@ std::string MirrorRequiredPort::bindProvided(ProvidedServicePort* provided) {
         bound_();
         return "";
     }
-    return fmt::format("service port '{}': the connected port provides no operation of interface {}{}",
-                       peer_.name, peer_.type, describe_problems());
+    std::string refusal =
+        fmt::format("service port '{}': the connected port provides no operation of interface {}{}",
+                    peer_.name, peer_.type, describe_problems());
+    record_refusal(refusal);
+    return refusal;
 }
 
 void MirrorRequiredPort::bind_methods(ProvidedServicePort& provided) {

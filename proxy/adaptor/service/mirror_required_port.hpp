@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "proxy/adaptor/archive/refusal_record.hpp"
 #include "proxy/adaptor/names/peer_names.hpp"
 #include "proxy/adaptor/service/method_types.hpp"
 #include "proxy/link/protocol/operation_table.hpp"
@@ -22,7 +23,7 @@ namespace tandem::adaptor {
 
 /// Mirrors a service port that the peer requires. The connected OPRoS service port executes the peer's calls. Methods are
 /// found by name and checked by signature; no stub is compiled.
-class MirrorRequiredPort final : public RequiredServicePort {
+class MirrorRequiredPort final : public RequiredServicePort, public RefusalRecord {
   public:
     /// `bound` is called when another port was connected; it must not wait.
     explicit MirrorRequiredPort(

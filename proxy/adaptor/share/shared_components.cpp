@@ -2,7 +2,6 @@
 #include "proxy/adaptor/share/shared_components.hpp"
 
 #include "host/log/log.hpp"
-#include "host/process/published/notices.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -23,21 +22,19 @@ constexpr int report_attempts = 3;
 
 link::PortTable SharedComponents::find(const std::vector<std::string>& names,
                                        const std::map<std::string, std::string>& interfaces,
-                                       ComponentDirectory* directory) {
+                                       ComponentDirectory* directory, std::vector<std::string>& useless) {
     if (!directory && !names.empty())
-        log::error("{}: property 'share': this engine does not show components to each other "
-                   "(ComponentDirectory.h); nothing is shared",
-                   owner_);
+        useless.emplace_back("property 'share': this engine does not show components to each other "
+                             "(ComponentDirectory.h); nothing is shared");
     directory_ = directory;
     interfaces_ = interfaces;
     for (const auto& name : names) {
         if (!directory || find(name)) continue;
         if (!directory->find(name) || name == owner_) {
-            const std::string line = fmt::format("{}: property 'share' names '{}', which is not another "
-                                                 "component of the application; it has {}",
-                                                 owner_, name, fmt::join(directory->names(), ", "));
-            log::error("{}", line);
-            process::publish_notice(process::NoticeKind::setting, line);
+            useless.push_back(
+                fmt::format("property 'share' names '{}', which is not another component of the "
+                            "application; it has {}",
+                            name, fmt::join(directory->names(), ", ")));
             continue;
         }
         components_.push_back(std::make_unique<SharedComponent>(name, *directory));

@@ -24,10 +24,11 @@ class SharedComponents {
         : owner_(std::move(owner)), call_timeout_(call_timeout) {}
     ~SharedComponents() { disconnect(); }
 
-    /// Finds the components and describes them. Logs one line for each missing component and each port that cannot cross,
-    /// and leaves it out. With nullptr as `directory`, all components are missing. [main-thread]
+    /// Finds the components and describes them. Adds one line to `useless` for each missing component, logs one line for each
+    /// port that cannot cross, and leaves them out. With nullptr as `directory`, all components are missing. [main-thread]
     link::PortTable find(const std::vector<std::string>& names,
-                         const std::map<std::string, std::string>& interfaces, ComponentDirectory* directory);
+                         const std::map<std::string, std::string>& interfaces, ComponentDirectory* directory,
+                         std::vector<std::string>& useless);
 
     /// Connects their ports with the link, whose own table is that of find(). `ports_changed` is called when a component
     /// has added or removed a port; it must not wait. [main-thread]

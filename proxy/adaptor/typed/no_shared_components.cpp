@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/adaptor/typed/no_shared_components.hpp"
 
-#include "host/log/log.hpp"
 #include "proxy/link/protocol/control.hpp"
 
+#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 namespace tandem::adaptor {
 
 link::PortTable NoSharedComponents::find(const std::vector<std::string>& names,
-                                         const std::map<std::string, std::string>&,
-                                         ComponentDirectory*) const {
+                                         const std::map<std::string, std::string>&, ComponentDirectory*,
+                                         std::vector<std::string>& useless) {
     if (!names.empty())
-        log::error("{}: property 'share' names {}: this engine does not let one component find another; "
-                   "they are not shown as RTCs",
-                   owner_, fmt::join(names, ", "));
+        useless.push_back(
+            fmt::format("property 'share' names {}: this engine does not let one component find "
+                        "another; they are not shown as RTCs",
+                        fmt::join(names, ", ")));
     return {};
 }
 

@@ -20,11 +20,12 @@ namespace tandem::adaptor {
 /// Components of a real engine do not know each other: `share` is refused, and nothing is shared.
 class NoSharedComponents {
   public:
-    NoSharedComponents(std::string owner, std::chrono::milliseconds) : owner_(std::move(owner)) {}
+    NoSharedComponents(const std::string&, std::chrono::milliseconds) {}
 
-    /// Logs a line if names are given.
-    link::PortTable find(const std::vector<std::string>& names, const std::map<std::string, std::string>&,
-                         ComponentDirectory*) const;
+    /// Adds a line to `useless` if names are given.
+    static link::PortTable find(const std::vector<std::string>& names,
+                                const std::map<std::string, std::string>&, ComponentDirectory*,
+                                std::vector<std::string>& useless);
     void connect(link::Link& link, const std::function<void(const link::Port&, engine::ArrivalListener*)>&,
                  const std::function<void()>&) {
         link_ = &link;
@@ -38,7 +39,6 @@ class NoSharedComponents {
     void peer_lost() {}
 
   private:
-    const std::string owner_;
     link::Link* link_ = nullptr;
 };
 

@@ -24,6 +24,7 @@ bool TypedEventOutPort::checkType(Event* event) {
                             peer_.name, connections_.type()->name, type->name);
     if (!error.empty()) {
         log::error("{}", error); // the engine does not say why
+        record_refusal(error);
         return false;
     }
     if (connections_.listens()) return true;

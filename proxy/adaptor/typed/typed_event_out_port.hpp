@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/process/log_throttle.hpp"
+#include "proxy/adaptor/archive/refusal_record.hpp"
 #include "proxy/adaptor/engine/arrival_listener.hpp"
 #include "proxy/adaptor/typed/typed_connections.hpp"
 #include "proxy/adaptor/typed/value_type.hpp"
@@ -17,7 +18,9 @@ namespace tandem::adaptor {
 
 /// Mirrors an output data port of the peer as an event port, for an engine with only the public API. Each message becomes
 /// an event for all connected ports, in the link's notifier thread. All connected ports have the same type.
-class TypedEventOutPort final : public OutputEventPortInterface, private engine::ArrivalListener {
+class TypedEventOutPort final : public OutputEventPortInterface,
+                                public RefusalRecord,
+                                private engine::ArrivalListener {
   public:
     using SetListener = TypedConnections<IEventPortLink>::SetListener;
 

@@ -16,7 +16,7 @@ bool TypedInPort::checkType(opros_any& sample) {
     const std::lock_guard lock(mutex_);
     if (!check.error.empty()) {
         log::error("{}", check.error); // the engine does not say why
-        if (first_refusal_.empty()) first_refusal_ = check.error;
+        record_refusal(check.error);
         return false;
     }
     const auto* type = find_value_type(sample.type());
@@ -24,11 +24,6 @@ bool TypedInPort::checkType(opros_any& sample) {
                      [&](const auto& each) { return each->type == type; }))
         encodings_.push_back(std::make_unique<Encoding>(Encoding{type, std::move(check)}));
     return true;
-}
-
-std::string TypedInPort::first_refusal() const {
-    const std::lock_guard lock(mutex_);
-    return first_refusal_;
 }
 
 /// Looks the type up by name each time, because an output port passes on any opros_any that its component pushes.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "proxy/adaptor/archive/refusal_record.hpp"
 #include "proxy/adaptor/typed/value_type.hpp"
 #include "proxy/link/channel/channel.hpp"
 #include "proxy/link/protocol/port_table.hpp"
@@ -16,7 +17,7 @@ namespace tandem::adaptor {
 
 /// Mirrors an input data port of the peer, for an engine with only the public API. push() encodes the value into the link's
 /// channel, in the pushing thread, and never blocks. Several ports with different types may push here.
-class TypedInPort final : public InputDataPortInterface {
+class TypedInPort final : public InputDataPortInterface, public RefusalRecord {
   public:
     /// `peer` is the port's entry in the peer's table; `convert` is that of check_type(). The channel must outlive this
     /// port.
@@ -32,8 +33,6 @@ class TypedInPort final : public InputDataPortInterface {
     /// the peer's, logs a line and returns false.
     bool checkType(opros_any& sample) override;
     bool checkType(DataPort*) override { return true; }
-    /// Returns the reason of the first refused connection; empty if none was refused.
-    std::string first_refusal() const;
 
   private:
     struct Encoding {
@@ -46,9 +45,8 @@ class TypedInPort final : public InputDataPortInterface {
     const link::Port peer_;
     link::ChannelWriter& channel_;
     const std::string convert_;
-    mutable std::mutex mutex_;                         ///< the two below
+    std::mutex mutex_;                                 ///< the one below
     std::vector<std::unique_ptr<Encoding>> encodings_; ///< of the connected ports; only appended to
-    std::string first_refusal_;
 
     std::mutex conversion_mutex_; ///< the two below, and the conversions
     wire::MessageBuffer encoded_; ///< a value before its conversion; kept for its memory

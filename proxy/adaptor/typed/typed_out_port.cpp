@@ -27,7 +27,7 @@ bool TypedOutPort::checkType(opros_any& sample) {
                                   peer_.name, connections_.type()->name, sample.type());
     if (!check.error.empty()) {
         log::error("{}", check.error); // the engine does not say why
-        if (first_refusal_.empty()) first_refusal_ = check.error;
+        record_refusal(check.error);
         return false;
     }
     if (connections_.listens()) return true;
@@ -36,11 +36,6 @@ bool TypedOutPort::checkType(opros_any& sample) {
     check_ = std::move(check);
     value_ = type->sample();
     return true;
-}
-
-std::string TypedOutPort::first_refusal() const {
-    const std::lock_guard lock(connections_.mutex());
-    return first_refusal_;
 }
 
 void TypedOutPort::arrived() {

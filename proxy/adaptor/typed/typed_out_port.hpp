@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/process/log_throttle.hpp"
+#include "proxy/adaptor/archive/refusal_record.hpp"
 #include "proxy/adaptor/engine/arrival_listener.hpp"
 #include "proxy/adaptor/typed/typed_connections.hpp"
 #include "proxy/adaptor/typed/value_type.hpp"
@@ -16,7 +17,9 @@ namespace tandem::adaptor {
 
 /// Mirrors an output data port of the peer, for an engine with only the public API, whose input ports do not read. The
 /// link's notifier thread pushes each message to all connected ports on arrival. All connected ports have the same type.
-class TypedOutPort final : public OutputDataPortInterface, private engine::ArrivalListener {
+class TypedOutPort final : public OutputDataPortInterface,
+                           public RefusalRecord,
+                           private engine::ArrivalListener {
   public:
     using SetListener = TypedConnections<IDataPortLink>::SetListener;
 
@@ -36,8 +39,6 @@ class TypedOutPort final : public OutputDataPortInterface, private engine::Arriv
     bool checkType(DataPort* target) override;
     /// Called by the target with a value of its type.
     bool checkType(opros_any& sample) override;
-    /// Returns the reason of the first refused connection; empty if none was refused.
-    std::string first_refusal() const;
 
     void addConnection(IDataPortLink* connection) override {
         OutputDataPortInterface::addConnection(connection);
@@ -61,7 +62,6 @@ class TypedOutPort final : public OutputDataPortInterface, private engine::Arriv
     link::ChannelReader& channel_;
     const std::string convert_;
     TypedConnections<IDataPortLink> connections_;
-    std::string first_refusal_; ///< with the mutex of the connections
     TypeCheck check_;
     // Used by the notifier thread; set before it runs here.
     opros_any value_;

@@ -29,7 +29,7 @@ using link::Reply;
 /// One operation: the required method that the engine connects with the provided one.
 class TypedRequiredPort::Operation final : public RequiredMethodInterface {
   public:
-    Operation(const TypedRequiredPort& port, const std::string& name, const link::KnownOperation& known)
+    Operation(TypedRequiredPort& port, const std::string& name, const link::KnownOperation& known)
         : RequiredMethodInterface(name), operation(known.name), types(known.types),
           id(link::operation_id(known.name, known.types.signature)), port_(port) {
         for (const auto& argument : types.arguments) arguments_.push_back(find_value_type(argument.type));
@@ -73,7 +73,7 @@ class TypedRequiredPort::Operation final : public RequiredMethodInterface {
     std::string why_refused(Method& method);
     link::ReplyView call(std::span<const std::byte> arguments, wire::MessageBuffer& memory);
 
-    const TypedRequiredPort& port_;
+    TypedRequiredPort& port_;
     std::vector<const ValueType*> arguments_;
     const ValueType* result_ = nullptr; ///< nullptr for void
     std::string return_type_;
@@ -98,7 +98,10 @@ std::string TypedRequiredPort::Operation::why_refused(Method& method) {
 ReturnType TypedRequiredPort::Operation::Connect(Method* peer) {
     if (!peer) return OPROS_BAD_INPUT_PARAMETER;
     if (const auto why = why_refused(*peer); !why.empty()) {
-        log::error("service port '{}': method '{}' is not called: {}", port_.port_, peer->getName(), why);
+        const std::string refusal = fmt::format("service port '{}': method '{}' is not called: {}",
+                                                port_.port_, peer->getName(), why);
+        log::error("{}", refusal);
+        port_.record_refusal(refusal);
         return OPROS_BAD_INPUT_PARAMETER;
     }
     {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "proxy/adaptor/archive/refusal_record.hpp"
 #include "proxy/adaptor/names/peer_names.hpp"
 #include "proxy/adaptor/typed/value_type.hpp"
 #include "proxy/link/protocol/operation_table.hpp"
@@ -20,7 +21,7 @@ namespace tandem::adaptor {
 /// Mirrors a service port that the peer requires, for an engine with only the public API. Has a method for each operation
 /// whose types cross. The methods that the engine connects with them execute the peer's calls. The archives of the API show
 /// whether these methods have the types of the operation.
-class TypedRequiredPort final : public RequiredServicePort {
+class TypedRequiredPort final : public RequiredServicePort, public RefusalRecord {
   public:
     /// `bound` is called when a method was connected; it must not wait.
     explicit TypedRequiredPort(

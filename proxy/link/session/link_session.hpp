@@ -15,7 +15,7 @@ namespace tandem::link {
 
 /// A blob that each side publishes in the segment, for messages that are too long for a ring.
 struct LargeMessageLimits {
-    std::uint64_t requested; ///< bytes that the user requested with `large_kib`; 0: no request
+    std::uint64_t requested; ///< bytes that the user requested with `large_kib`; 0: the default
     std::uint64_t available; ///< size of its rings' chunks in bytes; max_large_bytes without rings
 };
 

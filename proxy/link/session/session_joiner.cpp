@@ -15,12 +15,17 @@ namespace {
 
 // Version of everything, except the segment's layout, that both sides must agree on. Raise it when the port table, the
 // requests or the records change. A segment with another version is refused.
-constexpr std::uint64_t protocol_version = 0x7461'6e64'656d'0008; // "tandem", 8
+constexpr std::uint64_t protocol_version = 0x7461'6e64'656d'0009; // "tandem", 9
 
 shm::CallQueueOptions call_queue(shm::Side callers) { return {callers, max_calls, max_call_bytes}; }
 
 std::size_t call_queue_bytes() {
     return object_bytes(shm::call_queue_memory(calls_name, call_queue(shm::Side::first)).total);
+}
+
+/// Returns the longest message of a side with this RingSizes::large_bytes.
+std::size_t longest_message(std::size_t large_bytes) {
+    return large_bytes != 0 ? large_bytes : default_large_bytes;
 }
 
 } // namespace
@@ -63,7 +68,7 @@ std::shared_ptr<LinkSession> SessionJoiner::join() const {
     write_published_table(segment->add_blob(table_name, published_table_bytes(table.size(), may_change)),
                           table, 1);
     const LargeMessageLimits limits{options_.rings.large_bytes,
-                                    plan.rings.empty() ? max_large_bytes : large_bytes_};
+                                    plan.rings.empty() ? max_large_bytes : longest_message(large_bytes_)};
     std::memcpy(segment->add_blob(limits_name, sizeof limits).data(), &limits, sizeof limits);
     segment->publish(); // last, because the peer reads everything as soon as it sees this
     return std::make_shared<LinkSession>(segment, incoming_calls, options_.wait);
@@ -105,11 +110,16 @@ std::string SessionJoiner::remedy(const shm::Error& error) const {
 
 bool SessionJoiner::peer_needs_larger_chunks(const LargeMessageLimits& peer) {
     // The segment's content may be damaged, so a request above the maximum is ignored.
-    if (peer.requested <= large_bytes_ || peer.requested > max_large_bytes) return false;
+    if (peer.requested > max_large_bytes || longest_message(peer.requested) <= longest_message(large_bytes_))
+        return false;
     large_bytes_ = peer.requested;
     // A side without data ports creates no rings, so there is nothing to enlarge.
     return std::any_of(own_ports_.ports.begin(), own_ports_.ports.end(),
                        [](const Port& port) { return port.has_ring(); });
+}
+
+bool SessionJoiner::peer_chunks_suffice(const LargeMessageLimits& peer) const {
+    return peer.available >= longest_message(options_.rings.large_bytes);
 }
 
 void SessionJoiner::remember_peer_memory(const LinkSession& session) {

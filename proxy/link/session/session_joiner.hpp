@@ -33,9 +33,7 @@ class SessionJoiner {
     bool peer_needs_larger_chunks(const LargeMessageLimits& peer);
     /// Returns false while the peer's rings are too small for this side's request. The peer detects this as well and
     /// joins a new segment.
-    bool peer_chunks_suffice(const LargeMessageLimits& peer) const {
-        return peer.available >= options_.rings.large_bytes;
-    }
+    bool peer_chunks_suffice(const LargeMessageLimits& peer) const;
     /// Remembers the memory of the peer's chunks, in case this side creates the next segment.
     void remember_peer_memory(const LinkSession& session);
 
@@ -46,7 +44,7 @@ class SessionJoiner {
     const shm::Side side_;
     const LinkOptions& options_;
     const PortTable& own_ports_;
-    std::size_t large_bytes_; ///< the largest request of either side so far
+    std::size_t large_bytes_; ///< the larger request of the two sides so far; 0: the default
     std::size_t peer_chunk_bytes_;
 };
 

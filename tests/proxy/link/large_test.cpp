@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Messages of megabytes across a link: by loan, both ways, and what happens to those that do not fit.
-#include "captured_log.hpp"
 #include "link_side.hpp"
 #include "tests/shm/fixture.hpp"
 #include "tests/shm/small_shm.hpp"
+#include "tests/support/captured_log.hpp"
 #include "tests/support/skip.hpp"
 
 #include <numeric>
@@ -11,6 +11,7 @@
 using namespace tandem;
 using namespace tandem::link;
 using namespace tandem::link::test;
+using tandem::test::CapturedLog;
 
 namespace {
 
@@ -130,6 +131,16 @@ TEST_CASE("64 MiB pass in both directions, whichever side requests them") {
     CHECK(receive_image(link.b->link.reader("position")) == 9);
 }
 
+TEST_CASE("a side whose large_kib is below the default does not shorten the other side's messages") {
+    const bool adaptor_asks = GENERATE(true, false);
+    Linked link("less", large(adaptor_asks ? mib : 0), large(adaptor_asks ? 0 : mib));
+    const auto pixels = image(9, 6 * mib);
+    REQUIRE(send_image(link.b->link.writer("reference"), 9, pixels));
+    CHECK(receive_image(link.a->link.reader("reference")) == 9);
+    REQUIRE(send_image(link.a->link.writer("position"), 9, pixels));
+    CHECK(receive_image(link.b->link.reader("position")) == 9);
+}
+
 TEST_CASE("a long message is written where the peer reads it") {
     Linked link("place");
     std::span<std::byte> room;
@@ -181,7 +192,7 @@ TEST_CASE("an image sequence that outruns its reader arrives in order, and the c
 
 TEST_CASE("a message that is too long is refused, counted and logged once, and later ones pass") {
     const CapturedLog log;
-    Linked link("long", {}, large(mib));
+    Linked link("long", large(mib), large(mib));
     auto& writer = link.b->link.writer("reference");
     auto& reader = link.a->link.reader("reference");
     const auto too_long = image(1, mib);

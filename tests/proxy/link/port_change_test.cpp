@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // A side whose ports change while the link is up.
-#include "captured_log.hpp"
 #include "link_side.hpp"
 #include "proxy/link/protocol/published_table.hpp"
 #include "proxy/link/protocol/request.hpp"
 #include "proxy/link/registry.hpp"
 #include "shm/segment/layout.hpp"
+#include "tests/support/captured_log.hpp"
 
 #include <thread>
 
 using namespace tandem;
 using namespace tandem::link;
 using namespace tandem::link::test;
+using tandem::test::CapturedLog;
 
 namespace {
 

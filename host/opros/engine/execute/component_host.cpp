@@ -82,8 +82,14 @@ ComponentHost::ComponentHost(const Subcomponent& entry, ComponentProfile profile
     set_component_properties(*component_, profile_, entry.properties, options.plugin_dirs);
 }
 
+// stopOnError() changes only an ACTIVE component. If onInitialize or onStart throws, the caller of run_transition() puts the
+// component in ERROR.
 std::string ComponentHost::enter_error(const char* callback, const std::string& why) {
     std::string text = "component " + name_ + ": " + callback + " threw an exception: " + why;
+    if (!is_active()) {
+        log::error("{}; the other components continue", text);
+        return text;
+    }
     log::error("{}; it goes to ERROR, and the other components continue", text);
     error_logged_ = true;
     set_last_error(text);
@@ -142,7 +148,10 @@ std::string ComponentHost::run_transition(const char* callback,
             why = std::string("it made a call that failed: ") + error.what();
         }
     });
-    if (!thrown.empty()) return thrown; // run_guarded() has already logged it
+    if (!thrown.empty()) { // run_guarded() has already logged it
+        set_last_error(thrown);
+        return thrown;
+    }
     if (result == OPROS_SUCCESS) return "";
     std::string line = fmt::format("component {}: {} failed, {}", name_, callback, why);
     if (!is_known_error(line)) log::error("{}", line);

@@ -158,7 +158,7 @@ class ComponentHost {
     void set_last_error(const std::string& text);
     bool is_known_error(const std::string& text) const;
     void apply_properties();
-    /// Logs the exception of the callback and puts the component in ERROR. Returns the text for execute() to return.
+    /// Logs the exception of the callback and puts an ACTIVE component in ERROR. Returns the text for execute() to return.
     std::string enter_error(const char* callback, const std::string& why);
     template <class Code>
     std::string guard(const char* callback, const Code& code);

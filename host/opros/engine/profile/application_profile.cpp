@@ -129,7 +129,7 @@ class AssemblyReader {
                                          port_reference(node.child("target")), port_type_error(node)};
             if (connection.error.empty()) connection.error = port_reference_error(node);
             const std::string subscription = node.attribute("subscription_type").value();
-            connection.newest_only = subscription == "new";
+            connection.newest_only = XmlFile::keyword(subscription) == "new";
             if (connection.error.empty() && !subscription.empty() && !connection.newest_only)
                 connection.error = "subscription_type is '" + subscription +
                                    "', expected new, or no such attribute to send each message";

@@ -2,10 +2,12 @@
 #include "host/rt/lock_step/step_client.hpp"
 #include "tests/host/opros/engine/running.hpp"
 #include "tests/host/process/published_notices.hpp"
+#include "tests/support/captured_log.hpp"
 
 #include <dlfcn.h>
 
 using tandem::engine::Application;
+using tandem::engine::ComponentHost;
 
 #ifdef __SANITIZE_ADDRESS__
 #include <sanitizer/lsan_interface.h>
@@ -125,6 +127,29 @@ TEST_CASE("a component that throws goes to ERROR and the others continue") {
     CHECK(recorder(application, "M").executions == 2);
     CHECK(application.find_component("M")->component().recover() == OPROS_SUCCESS);
     CHECK(reasons().empty());
+}
+
+TEST_CASE("an exception puts only an ACTIVE component in ERROR, and the log says so only then") {
+    const Folder folder;
+    Application application(maker_and_printer(folder), test_options(folder));
+    application.start();
+    ComponentHost& printer = *application.find_component("P");
+    const std::string text = "component P: onEvent threw an exception: lost";
+    const auto throw_in_event = [&] {
+        return printer.run_guarded("onEvent", [] { throw std::runtime_error("lost"); });
+    };
+    REQUIRE(printer.request(TRANSITION_STOP).empty());
+    const tandem::test::CapturedLog log;
+    CHECK(throw_in_event() == text);
+    CHECK(state(application, "P") == OPROS_CS_INACTIVE);
+    CHECK(log.lines_with(text) == 1);
+    CHECK(log.lines_with("ERROR") == 0);
+    CHECK(printer.last_error().empty());
+    REQUIRE(printer.request(TRANSITION_START).empty());
+    CHECK(throw_in_event() == text);
+    CHECK(state(application, "P") == OPROS_CS_ERROR);
+    CHECK(log.lines_with(text + "; it goes to ERROR") == 1);
+    CHECK(printer.last_error() == text);
 }
 
 TEST_CASE("a component in ERROR that is recovered or reset is executed again, with its connections") {

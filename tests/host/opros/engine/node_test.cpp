@@ -239,7 +239,7 @@ TEST_CASE("the link of a node has the node's name, however long that of the appl
     CHECK(node_link(part) == "_a-left");
 }
 
-TEST_CASE("a connection may send the newest value only, and only `new` selects that") {
+TEST_CASE("a connection may send the newest value only, and only `new`, in any case, selects that") {
     const Folder folder;
     const auto connection = [&](const std::string& subscription) {
         std::string text = Folder::connect("data", "M", "numbers", "P", "numbers");
@@ -250,6 +250,10 @@ TEST_CASE("a connection may send the newest value only, and only `new` selects t
     };
     CHECK(connection("new").newest_only);
     CHECK(connection("new").error.empty());
+    CHECK(connection("New").newest_only);
+    CHECK(connection("NEW ").error.empty());
+    CHECK_FALSE(connection("").newest_only);
+    CHECK(connection("").error.empty());
     CHECK(connection("newest").error ==
           "subscription_type is 'newest', expected new, or no such attribute to send each message");
 }

@@ -9,7 +9,7 @@
 #include <sstream>
 #include <string>
 
-namespace tandem::link::test {
+namespace tandem::test {
 
 /// Counts lines of the log that are written while this object lives.
 class CapturedLog {
@@ -33,4 +33,4 @@ class CapturedLog {
     std::shared_ptr<spdlog::logger> before_;
 };
 
-} // namespace tandem::link::test
+} // namespace tandem::test
