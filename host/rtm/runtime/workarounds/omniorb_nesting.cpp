@@ -38,8 +38,7 @@ const char* stack_end() { return static_cast<const char*>(__builtin_frame_addres
 
 /// Throws MARSHAL if the any that this thread reads takes too much of its stack.
 void check_stack_of_any() {
-    if (anys > 0 && any_began - stack_end() > most_stack_of_any)
-        throw CORBA::MARSHAL(0, CORBA::COMPLETED_NO);
+    if (anys > 0 && any_began - stack_end() > most_stack_of_any) throw CORBA::MARSHAL(0, CORBA::COMPLETED_NO);
 }
 
 /// Returns omniORB's function. In a program that loads omniORB before this library, it is not the next one but the first.
