@@ -14,6 +14,7 @@
 #include "apps/tandem/shared_ports/link_ports.hpp"
 #include "host/plugin/plugin_dirs.hpp"
 #include "host/rtm/runtime/configuration/conf_file.hpp"
+#include "host/rtm/runtime/configuration/manager_settings.hpp"
 #include "host/text/join.hpp"
 #include "shm/inspect/observer.hpp"
 #include "shm/os/error.hpp"
@@ -79,21 +80,36 @@ void check_rtcs(const RunFolder& folder, const FolderCheckOptions& options, std:
     }
 }
 
-doctor::RtmSettings read_settings(const std::filesystem::path& conf) {
-    coil::Properties properties;
-    RTC::read_conf_file(conf, properties);
+/// Returns the settings that decide who reaches an rtm_host, in the spelling that it reads.
+doctor::RtmSettings settings_of_exposure(const coil::Properties& properties) {
     doctor::RtmSettings settings;
     for (const char* key :
          {"corba.endpoint", "corba.endpoints", "corba.master_manager", "corba.nameservers",
           "corba.permitted_users", "corba.ssl.certificate_authority_file", "corba.ssl.key_file",
           "manager.is_master", "manager.modules.remote_load", "manager.remote_shutdown", "naming.enable"})
-        if (const std::string& value = properties.getProperty(key); !value.empty()) settings[key] = value;
+        if (std::string value = properties.getProperty(key); !value.empty()) {
+            RTC::check_and_normalize_value(key, value);
+            settings[key] = value;
+        }
     return settings;
+}
+
+doctor::RtmSettings read_conf(const std::filesystem::path& conf) {
+    coil::Properties properties;
+    RTC::read_conf_file(conf, properties);
+    return settings_of_exposure(properties);
+}
+
+doctor::RtmSettings read_settings_of_running(const doctor::StartedHost& host) {
+    coil::Properties properties;
+    RTC::SettingOrigins ignored;
+    RTC::read_manager_settings({host.arguments, host.conf_variable, host.path_of}, properties, ignored);
+    return settings_of_exposure(properties);
 }
 
 /// Says what the set-up opens to other users and machines.
 void check_exposure(const RunFolder& folder, std::vector<CheckResult>& found) {
-    const doctor::RtmSettings settings = read_settings(folder.rtc_conf);
+    const doctor::RtmSettings settings = read_conf(folder.rtc_conf);
     for (auto& result : doctor::check_rtm_host("rtc.conf", settings, doctor::configured_endpoints(settings)))
         found.push_back(std::move(result));
 }
@@ -178,7 +194,7 @@ int run_doctor(const FolderCheckOptions& application, bool json) {
     auto results = doctor::run_checks(machine);
     results.push_back(doctor::check_runtime_folder(machine));
     results.push_back(doctor::check_segment_modes(machine));
-    for (auto& result : doctor::check_running_programs(machine, read_settings))
+    for (auto& result : doctor::check_running_programs(machine, read_settings_of_running))
         results.push_back(std::move(result));
     if (!application.folder.empty())
         for (auto& result : check_run_folder(application)) results.push_back(std::move(result));

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,8 +16,15 @@ namespace tandem::doctor {
 
 /// Values of rtc.conf by key.
 using RtmSettings = std::map<std::string, std::string>;
-/// Reads an rtc.conf. Throws std::runtime_error, one line, if it cannot.
-using ReadConf = std::function<RtmSettings(const std::filesystem::path&)>;
+/// How a running rtm_host was started.
+struct StartedHost {
+    std::vector<std::string> arguments;       ///< the first one is the program
+    std::optional<std::string> conf_variable; ///< RTC_MANAGER_CONFIG of its environment
+    /// Returns the path, for this process, of a file that the host names.
+    std::function<std::filesystem::path(const std::string& file)> path_of;
+};
+/// Reads the settings of a running rtm_host. Throws std::runtime_error, one line, if it cannot.
+using ReadSettings = std::function<RtmSettings(const StartedHost&)>;
 
 /// A TCP address at which a program listens, or would.
 struct TcpEndpoint {
@@ -34,7 +42,7 @@ std::vector<CheckResult> check_rtm_host(const std::string& name, const RtmSettin
 /// Returns the TCP endpoints of each process that has some, by pid. Reads only processes of the machine's user.
 std::map<pid_t, std::vector<TcpEndpoint>> listening_processes(const Machine& machine);
 /// Says what the running hosts, managers and monitors of this user have open.
-std::vector<CheckResult> check_running_programs(const Machine& machine, const ReadConf& read_conf);
+std::vector<CheckResult> check_running_programs(const Machine& machine, const ReadSettings& read_settings);
 
 CheckResult check_segment_modes(const Machine& machine); ///< segments of this user that others may open
 CheckResult check_runtime_folder(const Machine& machine);

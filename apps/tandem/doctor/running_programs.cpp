@@ -22,50 +22,48 @@ struct Program {
     }
 };
 
+/// Reads texts that end with a zero byte each.
+std::vector<std::string> read_texts(const Machine& machine, const std::string& file) {
+    std::vector<std::string> texts;
+    const std::string content = machine.content(file).value_or("");
+    for (std::size_t begin = 0; begin < content.size();) {
+        const std::size_t end = std::min(content.find('\0', begin), content.size());
+        texts.push_back(content.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    return texts;
+}
+
 Program read_program(const Machine& machine, pid_t pid) {
     Program program{fmt::format("/proc/{}", pid), {}, {}};
     program.command =
         command::replace_nonprintable(machine.first_line(program.folder + "/comm").value_or(""));
-    const std::string line = machine.content(program.folder + "/cmdline").value_or("");
-    for (std::size_t begin = 0; begin < line.size();) {
-        const std::size_t end = std::min(line.find('\0', begin), line.size());
-        program.arguments.push_back(line.substr(begin, end - begin));
-        begin = end + 1;
-    }
+    program.arguments = read_texts(machine, program.folder + "/cmdline");
     return program;
 }
 
-/// Returns the settings of an rtm_host: its rtc.conf (-f), overridden by options -o.
-RtmSettings read_settings(const Machine& machine, const Program& program, const ReadConf& read_conf) {
-    fs::path conf;
-    RtmSettings options;
-    for (std::size_t i = 1; i + 1 < program.arguments.size(); ++i) {
-        const std::string& value = program.arguments[i + 1];
-        if (program.arguments[i] == "-f") conf = value;
-        const auto colon = value.find(':');
-        if (program.arguments[i] == "-o" && colon != std::string::npos)
-            options[trim(value.substr(0, colon))] = trim(value.substr(colon + 1));
-    }
-    const fs::path cwd = machine.path(program.folder + "/cwd");
-    std::error_code ignored; // then there is no file
-    if (conf.empty() && fs::exists(cwd / "rtc.conf", ignored)) conf = "rtc.conf";
-    RtmSettings settings;
-    if (!conf.empty() && conf != "/dev/null")
-        settings = read_conf(conf.is_absolute() ? machine.path(conf.string()) : cwd / conf);
-    for (const auto& [key, value] : options) settings[key] = value;
-    return settings;
+/// Returns how the program was started. A relative name of a file is one in its working folder.
+StartedHost started_host(const Machine& machine, const Program& program) {
+    StartedHost host{program.arguments, {}, {}};
+    const std::string variable = "RTC_MANAGER_CONFIG=";
+    for (const std::string& setting : read_texts(machine, program.folder + "/environ"))
+        if (setting.starts_with(variable)) host.conf_variable = setting.substr(variable.size());
+    host.path_of = [&machine, folder = program.folder](const std::string& file) {
+        return fs::path(file).is_absolute() ? machine.path(file) : machine.path(folder + "/cwd") / file;
+    };
+    return host;
 }
 
 std::vector<CheckResult> check_rtm_program(const Machine& machine, const Program& program,
                                            const std::string& name, const std::vector<TcpEndpoint>& endpoints,
-                                           const ReadConf& read_conf) {
+                                           const ReadSettings& read_settings) {
     try {
-        return check_rtm_host(name, read_settings(machine, program, read_conf), endpoints);
+        return check_rtm_host(name, read_settings(started_host(machine, program)), endpoints);
     } catch (const std::runtime_error& error) {
         auto results = check_rtm_host(name, {}, endpoints);
         results.push_back(
             warning(name + ": settings", "unknown",
-                    "its rtc.conf cannot be read: " + command::replace_control_characters(error.what())));
+                    "they cannot be read: " + command::replace_control_characters(error.what())));
         return results;
     }
 }
@@ -101,13 +99,13 @@ bool has_omniorb(const Machine& machine, const Program& program) {
 
 } // namespace
 
-std::vector<CheckResult> check_running_programs(const Machine& machine, const ReadConf& read_conf) {
+std::vector<CheckResult> check_running_programs(const Machine& machine, const ReadSettings& read_settings) {
     std::vector<CheckResult> results;
     for (const auto& [pid, endpoints] : listening_processes(machine)) {
         const Program program = read_program(machine, pid);
         const std::string name = fmt::format("{} (pid {})", program.command, pid);
         if (program.command == "rtm_host") {
-            for (auto& result : check_rtm_program(machine, program, name, endpoints, read_conf))
+            for (auto& result : check_rtm_program(machine, program, name, endpoints, read_settings))
                 results.push_back(std::move(result));
         } else if (program.command == "tandem" && program.has("monitor")) {
             for (const auto& endpoint : endpoints)

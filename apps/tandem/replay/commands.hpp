@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,7 +11,8 @@ struct ReplayOptions {
     std::filesystem::path file;
     std::string in_place_of; ///< opros_host, rtm_host or a shared component; empty: the absent host
     std::string link;        ///< current name of the recording's only link; empty: unchanged
-    double rate = 1;         ///< recorded seconds per second; 0: as fast as possible
+    std::optional<double>
+        rate; ///< recorded seconds per second; 0: as fast as possible; unset: 1, in lock-step 0
     bool step =
         false; ///< wait for a line of input before each tick, or without lock-step before each message
     std::filesystem::path lockstep; ///< folder of an application, as for tandem run; empty: real time

@@ -98,6 +98,7 @@ void Comparison::compare(const std::string& name, Topic& topic) {
                                 fmt::format("{} {} of ", noun_of(*topic.channel), topic.compared),
                             describe(topic, expected, received));
     }
+    if (topic.expected.empty()) topic.is_late = false;
 }
 
 std::string Comparison::describe(const Topic& topic, const Item& expected, const Item& received) const {
@@ -128,6 +129,23 @@ bool Comparison::is_complete() const {
     const std::lock_guard lock(mutex_);
     return std::all_of(topics_.begin(), topics_.end(),
                        [](const auto& each) { return each.second.expected.empty(); });
+}
+
+bool Comparison::is_waiting() const {
+    const std::lock_guard lock(mutex_);
+    return std::any_of(topics_.begin(), topics_.end(),
+                       [](const auto& each) { return each.second.is_waited_for(); });
+}
+
+std::vector<std::string> Comparison::stop_waiting() {
+    const std::lock_guard lock(mutex_);
+    std::vector<std::string> names;
+    for (auto& [name, topic] : topics_) {
+        if (!topic.is_waited_for()) continue;
+        topic.is_late = true;
+        names.push_back(name);
+    }
+    return names;
 }
 
 void Comparison::finish(bool complete) {

@@ -29,6 +29,11 @@ class Comparison {
 
     /// Returns whether all expected messages have arrived.
     bool is_complete() const;
+    /// Returns whether an expected message has not arrived, of a topic that stop_waiting() has not returned.
+    bool is_waiting() const;
+    /// Returns the topics for which is_waiting() returned true. They are waited for again once all their expected
+    /// messages have arrived.
+    std::vector<std::string> stop_waiting();
     /// Ends the comparison. Unmatched messages are differences. `complete`: each expected message must have
     /// arrived.
     void finish(bool complete);
@@ -50,6 +55,8 @@ class Comparison {
         const RecordedChannel* channel = nullptr;
         std::deque<Item> expected, received;
         std::uint64_t compared = 0;
+        bool is_late = false; ///< was waited for in vain, and has not caught up
+        bool is_waited_for() const { return !expected.empty() && !is_late; }
     };
     void compare(const std::string& name, Topic& topic);
     void note_difference(const std::string& topic, const std::string& where, const std::string& what);

@@ -41,7 +41,8 @@ class Replay {
   public:
     explicit Replay(const ReplayOptions& options)
         : options_(options), recording_(options.file), answers_(recording_),
-          replacement_(find_replacement(recording_, options)) {
+          replacement_(find_replacement(recording_, options)),
+          rate_(options.step ? 0 : options.rate.value_or(options.lockstep.empty() ? 1 : 0)) {
         if (options.check) check_.emplace(options.times);
         for (const auto& problem : recording_.problems()) print_note("tandem: {}\n", problem);
         for (const auto& [name, side] : replacement_)
@@ -53,14 +54,12 @@ class Replay {
         open();
         wait_for_peers();
         std::optional<std::uint64_t> begin_ns;
-        const std::uint64_t started = shm::now_ns();
+        started_ns_ = shm::now_ns();
         while (const auto event = recording_.next()) {
             if (event->channel->kind == Kind::step) continue;
             if (!begin_ns) begin_ns = event->time_ns;
             if (is_sent(*event) && options_.step && !wait_for_line(describe(*event))) break;
-            if (options_.rate > 0 && !options_.step)
-                wait_until(started + static_cast<std::uint64_t>(
-                                         static_cast<double>(event->time_ns - *begin_ns) / options_.rate));
+            pace(event->time_ns - *begin_ns);
             if (stop_requested) break;
             handle(*event);
         }
@@ -78,6 +77,7 @@ class Replay {
         open();
         hosts.start();
         wait_for_peers();
+        started_ns_ = shm::now_ns();
         if (recording_.has_steps())
             run_recorded_steps(hosts, replaced);
         else
@@ -188,24 +188,45 @@ class Replay {
         return any;
     }
 
-    void wait_until(std::uint64_t time_ns) {
+    /// With a rate, waits for the time at which the replay has come to `recorded_ns` after the begin of the recording.
+    /// `hosts`: notices meanwhile when one of them ends, and a signal to end the replay.
+    void pace(std::uint64_t recorded_ns, SteppedHosts* hosts = nullptr) {
+        if (rate_ <= 0) return;
+        const auto time_ns =
+            started_ns_ + static_cast<std::uint64_t>(static_cast<double>(recorded_ns) / rate_);
         for (std::uint64_t now = shm::now_ns(); now < time_ns && !stop_requested; now = shm::now_ns()) {
             poll();
+            if (hosts != nullptr) hosts->look();
             std::this_thread::sleep_for(std::min<std::chrono::nanoseconds>(
                 std::chrono::nanoseconds(time_ns - now), pause_between_looks));
         }
     }
 
-    /// Waits until all messages recorded so far have arrived, or for at most longest_way.
-    void wait_for_rest() {
-        poll();
-        if (!check_ || check_->is_complete() || waited_in_vain_) return;
+    /// Receives messages until `condition` is true, for at most longest_way. Returns the condition.
+    template <class Condition>
+    bool wait_for(Condition condition) {
         const auto end = std::chrono::steady_clock::now() + longest_way;
-        while (check_ && !check_->is_complete() && std::chrono::steady_clock::now() < end &&
-               !stop_requested) {
-            poll();
+        for (poll(); !condition(); poll()) {
+            if (std::chrono::steady_clock::now() >= end || stop_requested) return false;
             std::this_thread::sleep_for(pause_between_looks);
         }
+        return true;
+    }
+
+    /// Waits until the messages of a tick have arrived. A topic that was waited for in vain is late: until it has caught
+    /// up, further ticks do not wait for it.
+    void wait_for_tick() {
+        if (!check_) return;
+        if (wait_for([this] { return !check_->is_waiting(); }) || stop_requested) return;
+        for (const std::string& topic : check_->stop_waiting())
+            print_note("tandem: {}: no answer within {} s; further ticks do not wait for it\n", topic,
+                       longest_way / 1s);
+    }
+
+    /// Waits until all recorded messages have arrived.
+    void wait_for_rest() {
+        poll();
+        if (check_) wait_for([this] { return check_->is_complete(); });
     }
 
     /// Messages in a ring are lost when its writer leaves.
@@ -224,7 +245,6 @@ class Replay {
     /// Runs the recorded cycles in order. The recorded messages replace the cycles of the replaced components.
     void run_recorded_steps(SteppedHosts& hosts, const std::string& replaced) {
         std::optional<std::uint64_t> tick;
-        const std::uint64_t started = shm::now_ns();
         while (const auto event = recording_.next()) {
             if (event->channel->kind != Kind::step) {
                 handle(*event);
@@ -232,14 +252,12 @@ class Replay {
             }
             if (stop_requested) return;
             if (tick != event->tick) {
-                if (tick) wait_for_rest(); // of the previous tick
+                if (tick) wait_for_tick(); // the previous one
                 tick = event->tick;
                 ++ticks_;
                 if (check_) check_->set_tick(*tick);
                 if (options_.step && !wait_for_line(fmt::format("tick {}", *tick))) return;
-                if (paced())
-                    wait_until(started + static_cast<std::uint64_t>(static_cast<double>(event->time_ns) /
-                                                                    options_.rate));
+                pace(event->time_ns, &hosts); // the time is that since the first tick
             }
             if (event->host != replaced) hosts.step(event->host, event->component);
             poll();
@@ -261,6 +279,7 @@ class Replay {
             }
             ++ticks_;
             *end_ns += tick_ns;
+            pace(ticks_ * tick_ns, &hosts);
             if (check_) check_->set_tick(ticks_);
         };
         if (check_) check_->set_tick(0);
@@ -275,9 +294,6 @@ class Replay {
         }
         if (end_ns) run_tick();
     }
-
-    /// Returns whether a lock-step keeps the recorded times, which only an explicit rate requests.
-    bool paced() const { return options_.rate > 0 && !options_.step && options_.rate != 1; }
 
     static std::string describe(const RecordedEvent& event) {
         return fmt::format("{}, {} bytes", event.channel->topic, event.bytes.size());
@@ -294,11 +310,12 @@ class Replay {
     Recording recording_;
     Answers answers_;
     const Replacement replacement_;
+    const double rate_;            ///< recorded seconds per second; 0: not paced
+    std::uint64_t started_ns_ = 0; ///< begin of the replay
     std::optional<Comparison> check_;
     std::list<ReplayPeer> replay_peers_;
     std::uint64_t sent_ = 0, refused_ = 0, called_ = 0, ticks_ = 0;
     bool in_order_ = true;
-    bool waited_in_vain_ = false; ///< never set
 };
 
 } // namespace

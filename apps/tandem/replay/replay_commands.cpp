@@ -33,12 +33,13 @@ part of the recording cannot be read, or no host is running that receives the re
         ->type_name("WHO");
     command->add_option("--link", options->link, "current name of the link, if the recording has one link")
         ->type_name("LINK");
-    auto* rate = command
-                     ->add_option("--rate", options->rate,
-                                  "speed relative to the recording; 0 replays as fast as possible (1; with "
-                                  "--lockstep 0)")
-                     ->type_name("FACTOR")
-                     ->check(options::number_between(0.0, 1000.0));
+    auto* rate =
+        command
+            ->add_option("--rate", options->rate,
+                         "speed relative to the recording, in lock-step that of the ticks; 0 replays as "
+                         "fast as possible (1; with --lockstep 0)")
+            ->type_name("FACTOR")
+            ->check(options::number_between(0.0, 1000.0));
     command
         ->add_flag("--step", options->step,
                    "wait for Enter before each message; with --lockstep, before each tick")

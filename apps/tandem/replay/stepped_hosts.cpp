@@ -73,8 +73,10 @@ void SteppedHosts::handle(const hosts::Supervisor::Events& events) {
 
 void SteppedHosts::step(const std::string& host, const std::string& component) {
     steps_.step(host, component);
-    if (++steps_since_look_ % steps_between_looks == 0) handle(supervisor_->watch(0ms));
+    if (++steps_since_look_ % steps_between_looks == 0) look();
 }
+
+void SteppedHosts::look() { handle(supervisor_->watch(0ms)); }
 
 bool SteppedHosts::stop() {
     if (!supervisor_ || stopping_) return true;

@@ -24,6 +24,8 @@ class SteppedHosts {
     void start();
     /// Runs one cycle. Throws std::runtime_error if it fails or a host has ended, or hosts::Interrupted.
     void step(const std::string& host, const std::string& component);
+    /// Passes on the hosts' output. Throws std::runtime_error if a host has ended, or hosts::Interrupted.
+    void look();
     /// Stops the hosts. Returns true if all ended normally.
     bool stop();
 

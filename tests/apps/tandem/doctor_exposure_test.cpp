@@ -58,10 +58,10 @@ class FakeMachine {
              "   0: " + address + " 00000000:0000 0A 00000000:00000000 00:00000000 00000000  1000        0 " +
                  inode + " 1\n");
     }
-    std::vector<CheckResult> run(const ReadConf& read_conf = [](const fs::path&) {
+    std::vector<CheckResult> run(const ReadSettings& read_settings = [](const StartedHost&) {
         return RtmSettings();
     }) const {
-        return check_running_programs(machine, read_conf);
+        return check_running_programs(machine, read_settings);
     }
 
     static constexpr const char* tcp_headings =
@@ -135,15 +135,20 @@ TEST_CASE(
 }
 
 TEST_CASE_METHOD(FakeMachine,
-                 "a running rtm_host is shown with its sockets and the settings of its rtc.conf") {
-    process(12, "rtm_host", {"rtm_host", "-f", "rtc.conf", "-o", "manager.remote_shutdown:YES"},
-            "0700000A:0AFA");
-    std::vector<fs::path> read;
-    const auto results = run([&](const fs::path& conf) {
-        read.push_back(conf);
-        return RtmSettings{{"corba.permitted_users", "alice"}, {"manager.remote_shutdown", "NO"}};
+                 "a running rtm_host is shown with its sockets, and its settings by how it was started") {
+    const std::vector<std::string> arguments{"rtm_host", "-o", "manager.remote_shutdown=YES"};
+    process(12, "rtm_host", arguments, "0700000A:0AFA");
+    file("/proc/12/environ", std::string("HOME=/\0RTC_MANAGER_CONFIG=robot.conf\0LANG=C\0", 44));
+    int hosts = 0;
+    const auto results = run([&](const StartedHost& host) {
+        ++hosts;
+        CHECK(host.arguments == arguments);
+        CHECK(host.conf_variable == "robot.conf");
+        CHECK(host.path_of("robot.conf") == machine.path("/proc/12/cwd/robot.conf"));
+        CHECK(host.path_of("/etc/rtc.conf") == machine.path("/etc/rtc.conf"));
+        return RtmSettings{{"corba.permitted_users", "alice"}, {"manager.remote_shutdown", "YES"}};
     });
-    CHECK(read == std::vector{machine.path("/proc/12/cwd/rtc.conf")});
+    CHECK(hosts == 1);
     check(results, "rtm_host (pid 12): TCP", CheckStatus::warning, "10.0.0.7:2810");
     check(results, "rtm_host (pid 12): corba.permitted_users", CheckStatus::warning, "alice");
     check(results, "rtm_host (pid 12): manager.remote_shutdown", CheckStatus::warning, "YES");
@@ -151,8 +156,10 @@ TEST_CASE_METHOD(FakeMachine,
 
 TEST_CASE_METHOD(FakeMachine, "an rtc.conf of a running host that cannot be read is a warning") {
     process(12, "rtm_host", {"rtm_host", "-f", "/etc/rtc.conf"}, "0100007F:0AFA");
-    const auto results =
-        run([](const fs::path&) -> RtmSettings { throw std::runtime_error("no such\nfile"); });
+    const auto results = run([](const StartedHost& host) -> RtmSettings {
+        CHECK_FALSE(host.conf_variable);
+        throw std::runtime_error("no such\nfile");
+    });
     check(results, "rtm_host (pid 12): TCP", CheckStatus::ok, "127.0.0.1:2810");
     check(results, "rtm_host (pid 12): settings", CheckStatus::warning, "unknown");
 }

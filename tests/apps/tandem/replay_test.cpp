@@ -9,8 +9,11 @@
 #include "host/process/run_command.hpp"
 #include "peer_host.hpp"
 
+#include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <optional>
 
 using namespace tandem;
@@ -49,6 +52,55 @@ Result replay_in_place_of(const TestFolder& folder, const std::string& who,
     return tandem_program(options);
 }
 
+/// How a copy of a recording differs from the recording.
+struct Changes {
+    std::uint64_t most_ns = 0;        ///< later messages are left out
+    std::uint64_t time_factor = 1;    ///< multiplies the times
+    bool with_steps = true;           ///< without them, it looks like a recording in real time
+    std::string repeated_topic_end{}; ///< each message of a topic with this end is written ten times
+};
+
+/// Replaces the recording of the folder by a changed copy. Returns the number of messages that were repeated.
+int change_recording(const TestFolder& folder, const Changes& changes) {
+    mcap::McapReader reader(folder / "run.mcap");
+    mcap::FileSink sink(folder / "other.mcap");
+    mcap::McapWriter writer(sink, {.library = "test"});
+    for (const auto& index : reader.contents().metadata) {
+        const auto metadata = reader.metadata(index);
+        if (changes.with_steps || metadata.name != "tandem.lockstep")
+            writer.add_metadata(metadata.name, metadata.metadata);
+    }
+    std::map<std::uint16_t, std::uint16_t> schemas{{0, 0}}, channels;
+    for (const auto& [id, schema] : reader.contents().schemas)
+        schemas[id] = writer.add_schema(schema.name, schema.encoding, schema.data);
+    for (const auto& [id, channel] : reader.contents().channels)
+        if (changes.with_steps || !channel.topic.ends_with("/steps"))
+            channels[id] = writer.add_channel(channel.topic, schemas.at(channel.schema_id),
+                                              channel.message_encoding, channel.metadata);
+    int repeated = 0;
+    auto messages = reader.messages({.to = changes.most_ns, .in_log_time_order = true});
+    while (const auto message = messages.next()) {
+        if (!channels.contains(message->channel_id)) continue;
+        const std::string& topic = reader.contents().channels.at(message->channel_id).topic;
+        const bool is_repeated =
+            !changes.repeated_topic_end.empty() && topic.ends_with(changes.repeated_topic_end);
+        for (int i = 0; i < (is_repeated ? 10 : 1); ++i)
+            writer.write(channels.at(message->channel_id), message->sequence,
+                         message->log_time * changes.time_factor, message->publish_time, message->data);
+        repeated += is_repeated ? 1 : 0;
+    }
+    writer.close();
+    sink.close();
+    fs::rename(folder / "other.mcap", folder / "run.mcap");
+    return repeated;
+}
+
+std::size_t count_of(const std::string& text, const std::string& part) {
+    std::size_t count = 0;
+    for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+    return count;
+}
+
 link::Port port_of(const std::string& name, link::PortKind kind) {
     link::Port port = timed_double_port(name);
     port.kind = kind;
@@ -79,6 +131,40 @@ TEST_CASE("the recorded joystick replays in lock-step byte for byte") {
         INFO(who << ": " << result.output << result.errors);
         CHECK(result.exit_code == 0);
         CHECK(result.output_contains(" answers are the same, byte for byte\n"));
+    }
+}
+
+TEST_CASE("a replay waits once for a topic whose answers are missing, and not in each tick") {
+    const TestFolder folder;
+    record_wheelchair(folder, "split", "doorway");
+    const int repeated =
+        change_recording(folder, {.most_ns = 300'000'000, .repeated_topic_end = "/refVoltage"});
+    REQUIRE(repeated > 10);
+    const auto result = replay_in_place_of(folder, "opros_host", {"--check"});
+    INFO(result.output << result.errors);
+    CHECK(result.exit_code == 1);
+    CHECK(count_of(result.errors, "/refVoltage: no answer within 1 s") == 1);
+    CHECK(result.output_contains("in 31 ticks\n"));
+}
+
+TEST_CASE("a replay in lock-step with --rate takes as long as the recording") {
+    const TestFolder folder;
+    record_wheelchair(folder, "split", "doorway");
+    const auto expect_paced = [&](const std::string& ticks) {
+        const auto begin = std::chrono::steady_clock::now();
+        const auto result = replay_in_place_of(folder, "opros_host", {"--rate", "1"});
+        INFO(result.output << result.errors);
+        CHECK(result.exit_code == 0);
+        CHECK(result.output_contains("in " + ticks + " ticks\n"));
+        CHECK(std::chrono::steady_clock::now() - begin >= std::chrono::seconds(6));
+    };
+    SECTION("of a lock-step") {
+        change_recording(folder, {.most_ns = 300'000'000, .time_factor = 20});
+        expect_paced("31");
+    }
+    SECTION("in real time") {
+        change_recording(folder, {.most_ns = 300'000'000, .time_factor = 20, .with_steps = false});
+        expect_paced("601");
     }
 }
 
@@ -183,6 +269,30 @@ TEST_CASE("a replay in real time sends the recorded messages in order to the run
                                            "--in-place-of", "opros_host", "--rate", "0", "--check"});
     CHECK(unchecked.exit_code == 1);
     CHECK(unchecked.output_contains("nothing was compared"));
+}
+
+TEST_CASE("a topic that was waited for in vain is waited for again once it has caught up") {
+    RecordedChannel slow{RecordedChannel::Kind::message, "l", "slow", "/l/slow"};
+    RecordedChannel other{RecordedChannel::Kind::message, "l", "other", "/l/other"};
+    slow.type = other.type = wire::parse_signature("{data}d");
+    Comparison check(false);
+    CHECK_FALSE(check.is_waiting());
+    check.expect(slow, 1, {});
+    CHECK(check.is_waiting());
+    CHECK(check.stop_waiting() == std::vector<std::string>{"/l/slow"});
+    CHECK_FALSE(check.is_waiting());
+    CHECK_FALSE(check.is_complete());
+    check.expect(slow, 2, {});
+    CHECK_FALSE(check.is_waiting());
+    check.expect(other, 1, {});
+    CHECK(check.is_waiting());
+    check.receive("/l/other", 1, {});
+    CHECK_FALSE(check.is_waiting());
+    check.receive("/l/slow", 1, {});
+    check.receive("/l/slow", 2, {});
+    CHECK(check.is_complete());
+    check.expect(slow, 3, {});
+    CHECK(check.is_waiting());
 }
 
 TEST_CASE("differences are named by member, missing messages are counted") {

@@ -6,6 +6,8 @@
 #include <rtm/NVUtil.h>
 
 #include <atomic>
+#include <charconv>
+#include <system_error>
 
 namespace tandem::command {
 
@@ -68,12 +70,15 @@ void RecordedPort::connect() {
 std::uint64_t RecordedPort::dropped() const { return port_->listener->dropped; }
 std::uint64_t RecordedPort::received() const { return port_->listener->received; }
 
-std::optional<std::uint64_t> RecordedPort::lost_by_sender() const {
+std::optional<std::uint64_t> RecordedPort::lost_by_sender() {
     try {
         RTC::ConnectorProfile_var profile = remote_.object->get_connector_profile(connection_->id().c_str());
         const std::string lost = NVUtil::toString(profile->properties, "dataport.lost");
-        if (lost.empty() || lost.find_first_not_of("0123456789") != std::string::npos) return std::nullopt;
-        return lost_before_ + std::stoull(lost);
+        std::uint64_t count = 0;
+        const auto [end, error] = std::from_chars(lost.data(), lost.data() + lost.size(), count);
+        if (error != std::errc() || end != lost.data() + lost.size()) return std::nullopt;
+        lost_ = lost_before_ + count;
+        return lost_;
     } catch (const CORBA::SystemException&) { // its host is gone
         return std::nullopt;
     }
@@ -82,6 +87,7 @@ std::optional<std::uint64_t> RecordedPort::lost_by_sender() const {
 bool RecordedPort::restore() {
     if (connection_->exists_at_remote_port()) return false;
     connect();
+    lost_before_ = lost_; // the sender counts for each connection
     return true;
 }
 

@@ -52,9 +52,9 @@ class RecordedPort {
     const wire::Type& message() const { return message_; }
     std::uint64_t dropped() const; ///< because this program had no room
     std::uint64_t received() const;
-    /// Returns the number of messages that the sender's buffer lost before sending; nullopt if the sender's host does
-    /// not count.
-    std::optional<std::uint64_t> lost_by_sender() const;
+    /// Asks the sender's host and returns the number of messages that the sender's buffer lost before sending, by all
+    /// connections so far; nullopt if the host does not count.
+    std::optional<std::uint64_t> lost_by_sender();
     /// Reconnects if the other port has dropped the connection. OpenRTM-aist's ports do so silently after one failed
     /// call. Returns true if it reconnected.
     bool restore();
@@ -69,7 +69,8 @@ class RecordedPort {
     const std::vector<std::string> properties_;
     std::unique_ptr<Port> port_;
     std::unique_ptr<PortConnection> connection_; ///< must end before the port
-    std::uint64_t lost_before_ = 0;              ///< never changed
+    std::uint64_t lost_before_ = 0;              ///< by earlier connections
+    std::uint64_t lost_ = 0;                     ///< as last returned
 };
 
 } // namespace tandem::command

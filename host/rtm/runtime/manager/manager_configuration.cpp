@@ -2,12 +2,10 @@
 // The manager's settings: defaults, rtc.conf, command line, in this order of precedence from low to high, as
 // in OpenRTM-aist's Manager::initManager(), ManagerConfig and Manager::initLogger().
 #include "host/rt/thread.hpp"
-#include "host/rtm/runtime/configuration/command_line.hpp"
 #include "host/rtm/runtime/configuration/conf_check.hpp"
-#include "host/rtm/runtime/configuration/conf_file.hpp"
 #include "host/rtm/runtime/configuration/format_name.hpp"
+#include "host/rtm/runtime/configuration/manager_settings.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
-#include <cstdlib>
 #include <rtm/ManagerConfig.h>
 #include <sys/utsname.h>
 #include <unistd.h>
@@ -61,16 +59,6 @@ void describe_system(coil::Properties& config) {
     config.setProperty("os.hostname", system.nodename);
 }
 
-// Returns the file that is read without -f: the first of the places of OpenRTM-aist's ManagerConfig::findConfigFile().
-// Returns an empty path if there is none.
-std::string find_default_conf_file() {
-    if (const char* named = std::getenv("RTC_MANAGER_CONFIG")) return named;
-    for (const char* file : {"./rtc.conf", "/etc/rtc.conf", "/etc/rtc/rtc.conf"})
-        if (std::filesystem::exists(std::filesystem::symlink_status(file)))
-            return file; // also a link to nothing
-    return "";
-}
-
 void set_up_logger(const coil::Properties& config, Logger& log) {
     if (!coil::toBool(config.getProperty("logger.enable"), "YES", "NO", true)) {
         log.setLevel("SILENT");
@@ -105,17 +93,10 @@ void warn_about_naming_policy(const coil::Properties& config, SettingOrigins& or
 }
 
 // Returns the file that was read; "": none.
-std::string read_settings(const CommandLine& line, coil::Properties& config, SettingOrigins& origins) {
+std::string read_settings(std::vector<std::string> arguments, coil::Properties& config,
+                          SettingOrigins& origins) {
     for (const auto& [key, value] : default_settings) config.setDefault(key, value);
-    std::string file = line.conf_file.empty() ? find_default_conf_file() : line.conf_file;
-    if (line.conf_file_may_be_missing && !std::filesystem::exists(file)) file.clear();
-    if (!file.empty()) {
-        read_conf_file(file, config, &origins);
-        config.setProperty("config_file", file);
-    }
-    config << line.settings;
-    for (const auto& [key, origin] : line.origins) origins[key] = origin;
-    return file;
+    return read_manager_settings(start_of_this_process(std::move(arguments)), config, origins);
 }
 
 } // namespace
@@ -127,16 +108,14 @@ ManagerConfig::~ManagerConfig() = default;
 void ManagerConfig::init(int argc, char** argv) { m_arguments.assign(argv, argv + argc); }
 
 void ManagerConfig::configure(coil::Properties& prop) {
-    std::vector<char*> arguments;
-    for (auto& argument : m_arguments) arguments.push_back(argument.data());
     SettingOrigins ignored;
-    read_settings(parse_command_line(static_cast<int>(arguments.size()), arguments.data()), prop, ignored);
+    read_settings(m_arguments, prop, ignored);
     describe_system(prop);
 }
 
 void configure_process(Manager::Impl& impl, int argc, char** argv) {
     SettingOrigins origins;
-    impl.conf_file = read_settings(parse_command_line(argc, argv), impl.config, origins);
+    impl.conf_file = read_settings({argv, argv + argc}, impl.config, origins);
     // Errors are thrown before the log is open; warnings wait for it.
     const auto warnings = check_and_normalize_settings(impl.config, origins);
     describe_system(impl.config);

@@ -180,8 +180,10 @@ std::vector<std::string> thread_limit_options() {
         // than others: until a new thread begins to serve its connection, omniORB counts it as a shared one. If a burst of
         // connections filled the pool with such threads, omniORB would queue requests without any shared thread that
         // could take them.
-        "-ORBthreadPerConnectionUpperLimit", "16", "-ORBthreadPerConnectionLowerLimit", "12",
-        "-ORBmaxServerThreadPoolSize", std::to_string(shared_threads),
+        // From the connection on that reaches the upper limit, omniORB makes no separate threads.
+        "-ORBthreadPerConnectionUpperLimit", std::to_string(separate_threads + 1),
+        "-ORBthreadPerConnectionLowerLimit", "12", "-ORBmaxServerThreadPoolSize",
+        std::to_string(shared_threads),
         // omniORB 4.2 uses freed memory when it serves broken requests of one connection simultaneously.
         "-ORBmaxServerThreadPerConnection", "1",
         // A day, in s: the connection of an idle tool is kept until others need the room. omniORB then knows how long

@@ -26,8 +26,8 @@ ConnectionLimits read_connection_limits(const coil::Properties& config);
 void set_connection_limits(const ConnectionLimits& limits);
 const ConnectionLimits& connection_limits();
 
-/// Threads for the connections without a separate thread.
-inline constexpr int shared_threads = 32;
+/// Threads for the first connections, one for each, and for the others together.
+inline constexpr int separate_threads = 15, shared_threads = 32;
 
 /// Returns omniORB's options that bound the threads of connections.
 std::vector<std::string> thread_limit_options();

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // tandem rtm record: OutPorts of a host that is not behind a link.
+#include "apps/tandem/mcap/reader.hpp"
 #include "host/process/child_process.hpp"
+#include "proxy/wire/cdr.hpp"
 #include "tests/apps/tandem/program.hpp"
 #include "tests/host/rtm/remote_host.hpp"
 
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
@@ -46,6 +50,20 @@ struct Counting {
         }
         return found;
     }
+    /// The recorded counts of messages that the sender's buffer lost.
+    std::vector<std::uint64_t> losses() const {
+        std::vector<std::uint64_t> found;
+        tandem::mcap::McapReader reader(file);
+        auto messages = reader.messages();
+        while (const auto message = messages.next()) {
+            if (reader.contents().channels.at(message->channel_id).topic != "/tandem/drops") continue;
+            tandem::wire::CdrReader in(std::span(message->data).subspan(4)); // without its encapsulation
+            in.get_string();                                                 // the port
+            in.get<std::uint64_t>();                                         // refused
+            found.push_back(in.get<std::uint64_t>());
+        }
+        return found;
+    }
     testing::RemoteHost host;
     std::filesystem::path folder, file;
 };
@@ -58,9 +76,17 @@ struct Recording {
         command.insert(command.begin(), TANDEM_PROGRAM);
         tandem::process::ChildOptions options;
         options.output = fileno(output);
+        options.errors = fileno(errors.get());
         child.emplace(command, options);
     }
+    /// Returns whether its standard error contains the text. Reads without moving the offset at which the child writes.
+    bool has_reported(const std::string& text) const {
+        std::string all(4096, ' ');
+        const ssize_t size = pread(fileno(errors.get()), all.data(), all.size(), 0);
+        return size > 0 && all.find(text) != std::string::npos;
+    }
     std::FILE* output;
+    std::unique_ptr<std::FILE, int (*)(std::FILE*)> errors{std::tmpfile(), std::fclose};
     std::optional<tandem::process::ChildProcess> child;
 };
 
@@ -73,14 +99,19 @@ std::string content_of(std::FILE* file) {
     return text;
 }
 
-/// Waits until the file has messages.
-void wait_for_messages(const Counting& counting) {
+/// Returns whether the condition on the file becomes true.
+bool wait_for(const Counting& counting, const std::function<bool()>& condition) {
     for (int i = 0; i < 600; ++i) {
-        if (std::filesystem::exists(counting.file) && std::filesystem::file_size(counting.file) > 1000)
-            return;
+        if (std::filesystem::exists(counting.file) && condition()) return true;
         std::this_thread::sleep_for(50ms);
     }
-    FAIL("nothing is recorded");
+    return false;
+}
+
+/// Waits until the file has messages.
+void wait_for_messages(const Counting& counting) {
+    if (!wait_for(counting, [&] { return std::filesystem::file_size(counting.file) > 1000; }))
+        FAIL("nothing is recorded");
 }
 
 } // namespace
@@ -124,6 +155,30 @@ TEST_CASE("messages lost in the sender's buffer while the recorder is slow are c
     CHECK(numbers.back() - numbers.front() + 1 == static_cast<long>(numbers.size()) + lost);
     const auto info = tandem_program({"bag", "info", counting.file.string(), "--json"}).json();
     CHECK(info["topics"].size() == 2); // and /tandem/drops
+}
+
+TEST_CASE("the count of messages lost in the sender's buffer does not fall when the recorder reconnects") {
+    const Counting counting;
+    REQUIRE(counting.activate().exit_code == 0);
+    Recording recording(counting, {"Counter0", "--json", "-p", "outport.buffer.length=4"});
+    wait_for_messages(counting);
+    kill(recording.child->pid(), SIGSTOP);
+    std::this_thread::sleep_for(700ms);
+    kill(recording.child->pid(), SIGCONT);
+    REQUIRE(wait_for(counting, [&] { return !counting.losses().empty(); }));
+    const auto disconnected =
+        tandem_program({"rtm", "disconnect", "Counter0:out", "--manager", "127.0.0.1:" + counting.host.port});
+    INFO(disconnected.output << disconnected.errors);
+    REQUIRE(disconnected.exit_code == 0);
+    CHECK(wait_for(counting, [&] { return recording.has_reported("dropped the connection; reconnected"); }));
+    kill(recording.child->pid(), SIGINT);
+    REQUIRE(recording.child->wait(30s));
+    const auto summary = nlohmann::json::parse(content_of(recording.output));
+    const auto losses = counting.losses();
+    REQUIRE(!losses.empty());
+    CHECK(losses.front() > 0);
+    CHECK(std::is_sorted(losses.begin(), losses.end()));
+    CHECK(summary["lost_by_senders"] == losses.back());
 }
 
 TEST_CASE("a killed tandem rtm record leaves a readable file, and the recorded port continues") {

@@ -3,6 +3,7 @@
 // stay incomplete. The host keeps few threads and little memory, and serves its other clients. TANDEM_STRESS multiplies
 // the connections and messages.
 #include "giop_client.hpp"
+#include "host/rtm/runtime/network/connection_limits.hpp"
 #include "tests/host/rtm/manager_fixture.hpp"
 #include "tests/support/stress.hpp"
 #include <atomic>
@@ -135,6 +136,30 @@ TEST_CASE("Hundreds of idle connections do not raise the number of threads, and 
     REQUIRE(send_all(newcomer, request("manager", "is_master", {}, 2, true)));
     CHECK(gets_reply(newcomer));
     CHECK(other.host.thread_count() <= most_threads);
+}
+
+TEST_CASE("Clients occupy a separate thread for each of the first connections, and the shared threads") {
+    RemoteHost other("Counter");
+    REQUIRE(other.host.wait_for_output("ready\n"));
+    Sockets sockets;
+    const int client = sockets.open(other.port); // with it, omniORB also starts a thread of its own
+    REQUIRE(send_all(client, request("manager", "is_master", {}, 2, true)));
+    REQUIRE(gets_reply(client));
+    const std::size_t begin = other.host.thread_count(), separate = begin + RTC::separate_threads - 1,
+                      all = separate + RTC::shared_threads;
+    for (int i = 1; i < RTC::separate_threads; ++i) sockets.open(other.port);
+    CHECK(eventually([&] { return other.host.thread_count() == separate; }));
+    for (int i = 0; i < 10; ++i) sockets.open(other.port);
+    REQUIRE(other.host.wait_until_idle());
+    CHECK(other.host.thread_count() == separate);
+    std::size_t most = 0;
+    for (int i = 0; i < 120; ++i) {
+        REQUIRE(
+            send_all(sockets.open(other.port), first_part(request("manager", "is_master", {}, 2, true), 20)));
+        most = std::max(most, other.host.thread_count());
+    }
+    CHECK(most > separate);
+    CHECK(most <= all);
 }
 
 TEST_CASE("A request that begins before the last fragment of another one ends its connection") {

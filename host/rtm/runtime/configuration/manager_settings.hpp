@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "host/rtm/runtime/configuration/conf_check.hpp"
+#include <coil/Properties.h>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace RTC {
+
+/// How the process of a manager was started, as far as it decides which settings the manager has.
+struct ManagerStart {
+    std::vector<std::string> arguments;       ///< the first one is the program
+    std::optional<std::string> conf_variable; ///< RTC_MANAGER_CONFIG of its environment
+    /// Returns the path, for this process, of a file that the manager's process names. The two differ if the manager is
+    /// another process.
+    std::function<std::filesystem::path(const std::string& file)> path_of;
+};
+
+/// Returns how a manager of this process is started.
+ManagerStart start_of_this_process(std::vector<std::string> arguments);
+
+/// Reads the settings that a user made for a manager into `config`, and the origin of each into `origins`: those of the
+/// configuration file, overridden by the options of the command line. Returns the file's name, as the manager's process
+/// names it; "": none. Throws ManagerError, one line, for a file or an option that cannot be read.
+std::string read_manager_settings(const ManagerStart& start, coil::Properties& config,
+                                  SettingOrigins& origins);
+
+} // namespace RTC
