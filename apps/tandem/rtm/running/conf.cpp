@@ -140,6 +140,17 @@ void activate_set(SDOPackage::Configuration_ptr configuration, const ConfOptions
     }
 }
 
+// Returns the set of this id among sets_json(). Throws std::runtime_error if there is none.
+nlohmann::json find_set(const nlohmann::json& sets, const std::string& id) {
+    std::vector<std::string> known;
+    for (const auto& set : sets) {
+        if (set["set"] == id) return set;
+        known.push_back(set["set"]);
+    }
+    throw std::runtime_error(fmt::format("there is no configuration set {}{} (the component has: {})", id,
+                                         text::did_you_mean(id, known), fmt::join(known, ", ")));
+}
+
 } // namespace
 
 // Sets values first. Components of OpenRTM-aist use them only after activation of their set, and have no active set
@@ -184,9 +195,7 @@ int rtm_conf(const RtmClientOptions& client_options, const ConfOptions& options)
                              options.values.empty() || is_in_tandem_host(component.object.in()));
         // Prints the component's actual values, not the requested ones.
         nlohmann::json sets = sets_json(configuration.in());
-        if (!options.set.empty())
-            std::erase_if(sets.get_ref<nlohmann::json::array_t&>(),
-                          [&](const nlohmann::json& set) { return set["set"] != options.set; });
+        if (!options.set.empty()) sets = nlohmann::json::array({find_set(sets, options.set)});
         if (client_options.json) return print_json(sets);
         for (const auto& set : sets) {
             print_text(fmt::format("{}{}\n", set["set"].get<std::string>(),

@@ -306,6 +306,11 @@ TEST_CASE(
     CHECK(conf({"--set", "other", "--json"}).json() ==
           nlohmann::json::parse(R"([{"set": "other", "active": false, "values": {"step": "8"}}])"));
     CHECK(conf({"--json"}).json().size() == 2);
+    const Result unknown = tandem_program(
+        {"rtm", "conf", "ConfigurationUser0", "--set", "othr", "--manager", "127.0.0.1:" + other.port});
+    CHECK(unknown.exit_code == 1);
+    CHECK(unknown.errors.find("there is no configuration set othr") != std::string::npos);
+    CHECK(unknown.errors.find("default, other") != std::string::npos);
     CHECK(conf({"step=9"}).output_contains("default (active)\n  level=2\n  size=3\n  step=9\n"));
     CHECK(other.host.wait_for_output("uses step 9\n"));
     CHECK(conf({"--activate", "other"}).output_contains("other (active)\n  step=8\n"));
