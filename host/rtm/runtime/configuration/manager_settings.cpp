@@ -11,6 +11,7 @@ namespace fs = std::filesystem;
 
 CommandLine parse_arguments(std::vector<std::string> arguments) {
     std::vector<char*> words;
+    words.reserve(arguments.size());
     for (auto& argument : arguments) words.push_back(argument.data());
     return parse_command_line(static_cast<int>(words.size()), words.data());
 }

@@ -14,7 +14,7 @@ constexpr int most_nested_anys = 10;
 // Data types of OpenRTM-aist have up to 10 levels.
 constexpr int most_type_levels = 32;
 // One level takes omniORB 4.3 0.2 KiB. A thread of the ORB has 8 MiB.
-constexpr std::ptrdiff_t most_stack_of_any = 256 * 1024;
+constexpr std::ptrdiff_t most_stack_of_any = 1 << 18; // 256 KiB
 
 /// Counts the calls of one function that this thread has not left. Throws MARSHAL if there are too many.
 class Level {
