@@ -119,6 +119,7 @@ PUBLIC_TO_APPS = {
     "host/rtm/runtime/configuration/conf_file.hpp",
     "host/rtm/runtime/configuration/conf_keys.hpp",
     "host/rtm/runtime/configuration/manager_settings.hpp",
+    "host/rtm/runtime/configuration/manager_start.hpp",
     "host/rtm/runtime/configuration/openrtm_modules.hpp",
     "host/rtm/runtime/manager/manager_options.hpp",
     "host/rtm/runtime/naming/remote_names.hpp",

@@ -100,10 +100,10 @@ doctor::RtmSettings read_conf(const std::filesystem::path& conf) {
     return settings_of_exposure(properties);
 }
 
-doctor::RtmSettings read_settings_of_running(const doctor::StartedHost& host) {
+doctor::RtmSettings read_settings_of_running(const RTC::ManagerStart& start) {
     coil::Properties properties;
     RTC::SettingOrigins ignored;
-    RTC::read_manager_settings({host.arguments, host.conf_variable, host.path_of}, properties, ignored);
+    RTC::read_manager_settings(start, properties, ignored);
     return settings_of_exposure(properties);
 }
 

@@ -4,11 +4,10 @@
 #pragma once
 #include "apps/tandem/doctor/check_result.hpp"
 #include "apps/tandem/doctor/machine.hpp"
+#include "host/rtm/runtime/configuration/manager_start.hpp"
 
-#include <filesystem>
 #include <functional>
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,15 +15,8 @@ namespace tandem::doctor {
 
 /// Values of rtc.conf by key.
 using RtmSettings = std::map<std::string, std::string>;
-/// How a running rtm_host was started.
-struct StartedHost {
-    std::vector<std::string> arguments;       ///< the first one is the program
-    std::optional<std::string> conf_variable; ///< RTC_MANAGER_CONFIG of its environment
-    /// Returns the path, for this process, of a file that the host names.
-    std::function<std::filesystem::path(const std::string& file)> path_of;
-};
 /// Reads the settings of a running rtm_host. Throws std::runtime_error, one line, if it cannot.
-using ReadSettings = std::function<RtmSettings(const StartedHost&)>;
+using ReadSettings = std::function<RtmSettings(const RTC::ManagerStart&)>;
 
 /// A TCP address at which a program listens, or would.
 struct TcpEndpoint {

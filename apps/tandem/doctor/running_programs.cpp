@@ -43,22 +43,22 @@ Program read_program(const Machine& machine, pid_t pid) {
 }
 
 /// Returns how the program was started. A relative name of a file is one in its working folder.
-StartedHost started_host(const Machine& machine, const Program& program) {
-    StartedHost host{program.arguments, {}, {}};
+RTC::ManagerStart start_of(const Machine& machine, const Program& program) {
+    RTC::ManagerStart start{program.arguments, {}, {}};
     const std::string variable = "RTC_MANAGER_CONFIG=";
     for (const std::string& setting : read_texts(machine, program.folder + "/environ"))
-        if (setting.starts_with(variable)) host.conf_variable = setting.substr(variable.size());
-    host.path_of = [&machine, folder = program.folder](const std::string& file) {
+        if (setting.starts_with(variable)) start.conf_variable = setting.substr(variable.size());
+    start.path_of = [&machine, folder = program.folder](const std::string& file) {
         return fs::path(file).is_absolute() ? machine.path(file) : machine.path(folder + "/cwd") / file;
     };
-    return host;
+    return start;
 }
 
 std::vector<CheckResult> check_rtm_program(const Machine& machine, const Program& program,
                                            const std::string& name, const std::vector<TcpEndpoint>& endpoints,
                                            const ReadSettings& read_settings) {
     try {
-        return check_rtm_host(name, read_settings(started_host(machine, program)), endpoints);
+        return check_rtm_host(name, read_settings(start_of(machine, program)), endpoints);
     } catch (const std::runtime_error& error) {
         auto results = check_rtm_host(name, {}, endpoints);
         results.push_back(

@@ -56,7 +56,7 @@ class MirrorInPort final : public InputDataPortInterface, public rt::Rehearsable
     const link::Port peer_;
     link::ChannelWriter& channel_;
     const std::string convert_;
-    mutable std::mutex encodings_mutex_;
+    std::mutex encodings_mutex_;
     std::vector<std::unique_ptr<Encoding>> encodings_; ///< of the connected ports; only appended to
     std::atomic<Encoding*> sole_encoding_{nullptr};    ///< nullptr: none, or several
     std::string type_error_;

@@ -68,10 +68,10 @@ class MirrorOutPort final : public OutputDataPortInterface, public RefusalRecord
     const SetListener set_listener_;
     const std::string convert_;
     std::vector<std::unique_ptr<OutTap>>
-        taps_;                           ///< changed with both locks: of the channel and of the listeners
-    bool has_other_targets_ = false;     ///< changed with taps_
-    mutable std::mutex listeners_mutex_; ///< the taps' listeners
-    DataPortListener* told_ = nullptr;   ///< the last argument of set_listener_
+        taps_;                         ///< changed with both locks: of the channel and of the listeners
+    bool has_other_targets_ = false;   ///< changed with taps_
+    std::mutex listeners_mutex_;       ///< the taps' listeners
+    DataPortListener* told_ = nullptr; ///< the last argument of set_listener_
     std::string type_error_;
 };
 

@@ -58,7 +58,7 @@ class FakeMachine {
              "   0: " + address + " 00000000:0000 0A 00000000:00000000 00:00000000 00000000  1000        0 " +
                  inode + " 1\n");
     }
-    std::vector<CheckResult> run(const ReadSettings& read_settings = [](const StartedHost&) {
+    std::vector<CheckResult> run(const ReadSettings& read_settings = [](const RTC::ManagerStart&) {
         return RtmSettings();
     }) const {
         return check_running_programs(machine, read_settings);
@@ -140,7 +140,7 @@ TEST_CASE_METHOD(FakeMachine,
     process(12, "rtm_host", arguments, "0700000A:0AFA");
     file("/proc/12/environ", std::string("HOME=/\0RTC_MANAGER_CONFIG=robot.conf\0LANG=C\0", 44));
     int hosts = 0;
-    const auto results = run([&](const StartedHost& host) {
+    const auto results = run([&](const RTC::ManagerStart& host) {
         ++hosts;
         CHECK(host.arguments == arguments);
         CHECK(host.conf_variable == "robot.conf");
@@ -156,7 +156,7 @@ TEST_CASE_METHOD(FakeMachine,
 
 TEST_CASE_METHOD(FakeMachine, "an rtc.conf of a running host that cannot be read is a warning") {
     process(12, "rtm_host", {"rtm_host", "-f", "/etc/rtc.conf"}, "0100007F:0AFA");
-    const auto results = run([](const StartedHost& host) -> RtmSettings {
+    const auto results = run([](const RTC::ManagerStart& host) -> RtmSettings {
         CHECK_FALSE(host.conf_variable);
         throw std::runtime_error("no such\nfile");
     });
