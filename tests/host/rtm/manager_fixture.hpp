@@ -8,7 +8,7 @@
 namespace testing {
 
 /// Starts the manager with the test components registered and the log off; shuts it down at the end. A process has
-/// one manager, so each test case runs in a process of its own.
+/// one manager, so each test case runs in a separate process.
 class ManagerFixture {
   public:
     /// `lockstep` false: contexts have their threads. `settings`: `key:value` each, as with -o.

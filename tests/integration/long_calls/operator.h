@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Uses a crane according to commands from a named pipe, one per line, and prints what happens:
-//   lift N    calls with a handle, which allows a minute, in a thread of its own      plain N  calls without a handle
+//   lift N    calls with a handle, which allows a minute, in a separate thread      plain N  calls without a handle
 //   lower N   calls without waiting, with a handle
 //   watch     waits until the progress has risen twice                                cancel   cancels the handle's call
 //   wait      waits until nothing is pending

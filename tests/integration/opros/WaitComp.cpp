@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Waits for replies, which it prints, and in a thread of its own for words that come through a named pipe, about which it
-// asks the dictionary.
+// Waits for replies, which it prints. A separate thread waits for words that come through a named pipe, and asks the
+// dictionary about them.
 #include <OPRoSInclude.h>
 #include <ServiceUtils.h>
 

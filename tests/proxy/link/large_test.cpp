@@ -323,7 +323,7 @@ TEST_CASE("an image without memory in /dev/shm is dropped and reported, and othe
     shm::test::Child child(images_in_small_shm);
     const int result = child.wait();
     if (result == shm::test::not_permitted)
-        TANDEM_SKIP_PART("this process may not mount a file system of its own");
+        TANDEM_SKIP_PART("this process may not mount a file system");
     else
         CHECK(result == 0);
 }
@@ -332,7 +332,7 @@ TEST_CASE("a large_kib beyond the room in /dev/shm is an error with both numbers
     shm::test::Child child(asks_for_too_much);
     const int result = child.wait();
     if (result == shm::test::not_permitted)
-        TANDEM_SKIP_PART("this process may not mount a file system of its own");
+        TANDEM_SKIP_PART("this process may not mount a file system");
     else
         CHECK(result == 0);
 }

@@ -142,7 +142,7 @@ TEST_CASE("Clients occupy a separate thread for each of the first connections, a
     RemoteHost other("Counter");
     REQUIRE(other.host.wait_for_output("ready\n"));
     Sockets sockets;
-    const int client = sockets.open(other.port); // with it, omniORB also starts a thread of its own
+    const int client = sockets.open(other.port); // omniORB then also starts another thread
     REQUIRE(send_all(client, request("manager", "is_master", {}, 2, true)));
     REQUIRE(gets_reply(client));
     const std::size_t begin = other.host.thread_count(), separate = begin + RTC::separate_threads - 1,
