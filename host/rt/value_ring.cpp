@@ -5,4 +5,9 @@ namespace tandem::rt {
 
 template class BasicCellRing<shm::RealAtomics>;
 
+CellRing& rehearsal_ring() {
+    thread_local CellRing ring(1);
+    return ring;
+}
+
 } // namespace tandem::rt

@@ -10,6 +10,10 @@ namespace tandem::rt {
 using CellRing = BasicCellRing<shm::RealAtomics>;
 extern template class BasicCellRing<shm::RealAtomics>;
 
+/// Returns the ring that rehearsals of this thread use instead of a port's: they publish short values into it and take them, so
+/// that this code is in the caches, too. It has a depth of 1, and is empty between two rehearsals.
+CellRing& rehearsal_ring();
+
 /// A queue of values between two threads: a CellRing with its values.
 template <class Value>
 class ValueRing : public CellRing {

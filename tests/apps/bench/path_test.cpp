@@ -135,7 +135,7 @@ constexpr Bound bounds[] = {
     {"tandem/path/rtm-to-opros/8/caller", 1500, 142, 34, 0, 10},
     {"tandem/path/rtm-to-opros/8/worker", 1070, 105, 25, 0, 12},
     {"tandem/path/inside-opros/48/sender", 290, 28, 11, 0, 0},
-    {"tandem/path/inside-opros/48/receiver", 280, 33, 11, 0, 1},
+    {"tandem/path/inside-opros/48/receiver", 300, 33, 11, 0, 1},
     {"tandem/path/inside-opros/8/caller", 48, 10, 5, 0, 0},
     {"tandem/path/inside-rtm/48/sender", 370, 44, 14, 0, 2},
     {"tandem/path/inside-rtm/48/receiver", 430, 50, 14, 0, 4},

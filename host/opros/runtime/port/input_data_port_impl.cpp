@@ -76,18 +76,24 @@ inline std::optional<opros_any::holder_base::Memory> InputDataPortImpl::short_el
     return elements.bytes <= Ring::Content::max_size ? std::optional(elements) : std::nullopt;
 }
 
+/// Returns where this thread publishes and takes short values: in a rehearsal, not in the port's ring.
+inline tandem::rt::CellRing& InputDataPortImpl::cells() {
+    return rehearsing() ? tandem::rt::rehearsal_ring() : *ring_;
+}
+
 inline void InputDataPortImpl::push_into_ring(opros_any& value) {
     const auto elements = short_elements(value);
     if (rehearsing()) {
         tandem::rt::note_crossings(ring_->published());
         ring_->prefetch_for_publish();
+        tandem::rt::rehearsal_ring().take(); // what the last rehearsal has published
     }
     // A rehearsal pushes a short value, even if the port gets long ones.
     const bool is_long = !elements || (rehearsing() && !ring_->next().empty());
     if (is_long)
         push_long(value);
-    else if (!rehearsing())
-        ring_->publish_short(elements->begin, elements->bytes);
+    else
+        cells().publish_short(elements->begin, elements->bytes);
 }
 
 // A new value gets an object that this port's code has created, and the copy is assigned to it. The given object may belong
@@ -154,14 +160,17 @@ inline opros_any* InputDataPortImpl::pop_from_ring() {
     if (rehearsing()) {
         tandem::rt::note_crossings(ring_->taken());
         ring_->prefetch_for_take();
-        return pool_.lend(ring_->taken_short() != nullptr ? taken() : decoded_);
+        const Ring::Content* const last = ring_->taken_short();
+        if (last == nullptr) return pool_.lend(decoded_);
+        tandem::rt::rehearsal_ring().take();
+        tandem::rt::rehearsal_ring().publish_short(last->bytes(), last->size());
     }
-    return ring_->take() ? pool_.lend(taken()) : found_nothing();
+    return cells().take() ? pool_.lend(taken()) : found_nothing();
 }
 
 /// Returns the value that was taken or peeked at last.
 inline opros_any& InputDataPortImpl::taken() {
-    const Ring::Content* const value = ring_->taken_short();
+    const Ring::Content* const value = cells().taken_short();
     if (value == nullptr) return ring_->last();
     prepare_decoded();
     opros_any::holder_base& held = *decoded_.held();

@@ -62,6 +62,7 @@ class InputDataPortImpl {
     bool has_equal_type(const opros_any::holder_base& held);
     // Require push_mutex_ to be held.
     std::optional<opros_any::holder_base::Memory> short_elements(opros_any& value);
+    tandem::rt::CellRing& cells();
     void push_into_ring(opros_any& value);
     void push_long(const opros_any& value);
     void push_into_queue(const opros_any& value);

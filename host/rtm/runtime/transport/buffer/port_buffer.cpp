@@ -12,6 +12,7 @@
 
 namespace RTC {
 
+using tandem::rt::CellRing;
 using tandem::rt::rehearsing;
 using tandem::rt::ShortLock;
 using namespace std::chrono_literals;
@@ -102,12 +103,15 @@ using Ring = tandem::rt::ValueRing<ByteData>;
 
 EncodedMessage as_message(const Ring::Content& value) { return {value.bytes(), value.size(), true}; }
 
-/// Returns the message that was taken last.
-EncodedMessage last_message(Ring& ring) {
-    if (const auto* value = ring.taken_short()) return as_message(*value);
+/// Returns the message that was taken last from `cells`, which are the ring's or those of a rehearsal.
+EncodedMessage last_message(const CellRing& cells, Ring& ring) {
+    if (const auto* value = cells.taken_short()) return as_message(*value);
     const ByteData& last = ring.last();
     return {last.getBuffer(), last.getDataLength(), last.getEndian()};
 }
+
+/// Returns where this thread publishes and takes short messages.
+CellRing& cells_for(Ring& ring) { return rehearsing() ? tandem::rt::rehearsal_ring() : ring; }
 
 /// Publishes the message in the writer's ByteData. Returns whether the oldest one was dropped for it.
 bool publish_next(Ring& ring) {
@@ -189,11 +193,12 @@ void PortBuffer::wake() {
 /// Returns FULL if there is no room, NOT_SUPPORTED if `publish` returns false.
 template <class Publish>
 inline BufferStatus PortBuffer::try_store(Turn& turn, const Publish& publish, bool& overwritten) {
-    const ShortLock lock(write_mutex_);
+    if (!write_mutex_.lock_unless_rehearsing()) return BufferStatus::OK;
+    const ShortLock lock(write_mutex_, std::adopt_lock);
     turn.waits = turn.timeout > 0ns || (turn.timeout < 0ns && block_write_);
     turn.wakes = block_read_;
     if (turn.waits && turn.timeout < 0ns) turn.timeout = write_timeout_;
-    if ((turn.waits || !overwrite_) && ring_->is_full()) return BufferStatus::FULL;
+    if ((turn.waits || !overwrite_) && cells_for(*ring_).is_full()) return BufferStatus::FULL;
     return publish(overwritten) ? BufferStatus::OK : BufferStatus::NOT_SUPPORTED;
 }
 
@@ -210,7 +215,7 @@ inline BufferStatus PortBuffer::store(std::chrono::nanoseconds timeout, const Pu
         };
         if (!wait(turn.timeout, stored)) return BufferStatus::TIMEOUT;
     }
-    if (turn.wakes && status == BufferStatus::OK) wake();
+    if (turn.wakes && status == BufferStatus::OK && !rehearsing()) wake();
     return status;
 }
 
@@ -234,16 +239,13 @@ BufferStatus PortBuffer::store_copy(const ByteData& message, std::chrono::nanose
 }
 
 BufferStatus PortBuffer::writeInPlace(const Marshal& marshal) {
-    if (rehearsing()) {
-        rehearse_write(marshal);
-        return BufferStatus::OK;
-    }
+    if (rehearsing() && !prepare_rehearsal_of_write()) return BufferStatus::OK;
     const auto publish = [&](bool& dropped) { return publish_encoded(marshal, dropped); };
     bool ignored = false;
     return store(-1ns, publish, ignored);
 }
 
-/// Encodes and publishes the message; in a rehearsal only encodes it. Returns false if it cannot be encoded.
+/// Encodes and publishes the message, in a rehearsal a short one only. Returns false if it cannot be encoded.
 bool PortBuffer::publish_encoded(const Marshal& marshal, bool& dropped) {
     const auto& numbers = marshal.numbers();
     // The value of a rehearsal is short, even at a port for long ones.
@@ -251,7 +253,7 @@ bool PortBuffer::publish_encoded(const Marshal& marshal, bool& dropped) {
     if (!is_long && are_block(numbers) && encoded_bytes(numbers) <= Ring::Content::max_size) {
         std::array<unsigned char, Ring::Content::max_size> bytes;
         encode_numbers(numbers, bytes.data());
-        if (!rehearsing()) dropped = ring_->publish_short(bytes.data(), encoded_bytes(numbers));
+        dropped = cells_for(*ring_).publish_short(bytes.data(), encoded_bytes(numbers));
         return true;
     }
     if (!encode(marshal, stream_, ring_->next())) return false;
@@ -259,31 +261,34 @@ bool PortBuffer::publish_encoded(const Marshal& marshal, bool& dropped) {
     return true;
 }
 
-void PortBuffer::rehearse_write(const Marshal& marshal) {
-    if (!write_mutex_.lock_if_owner()) return;
+/// Returns whether the rehearsal goes on.
+bool PortBuffer::prepare_rehearsal_of_write() {
+    if (!write_mutex_.lock_if_owner()) return false;
     const ShortLock lock(write_mutex_, std::adopt_lock);
     tandem::rt::note_crossings(ring_->published());
+    tandem::rt::rehearsal_ring().take(); // what the last rehearsal has published
     ring_->prefetch_for_publish();
     // Encoding the short message of a rehearsal would clear a long one.
     const ByteData& next = ring_->next();
-    if (next.getDataLength() > longest_rehearsed) return;
+    if (next.getDataLength() > longest_rehearsed) return false;
     __builtin_prefetch(next.getBuffer(), 1);
-    bool dropped = false;
-    publish_encoded(marshal, dropped);
+    return true;
 }
 
 /// Returns EMPTY if there is no message, even if threads wait for one.
 template <class Decode>
 inline BufferStatus PortBuffer::try_take(Turn& turn, const Decode& decode) {
-    const ShortLock lock(read_mutex_);
+    if (!read_mutex_.lock_unless_rehearsing()) return BufferStatus::EMPTY;
+    const ShortLock lock(read_mutex_, std::adopt_lock);
     turn.waits = turn.timeout > 0ns || (turn.timeout < 0ns && block_read_);
     turn.wakes = block_write_;
     if (turn.waits && turn.timeout < 0ns) turn.timeout = read_timeout_;
-    if (ring_->take())
+    CellRing& cells = cells_for(*ring_);
+    if (cells.take())
         has_last_ = true;
     else if (turn.waits || !readback_ || !has_last_)
         return BufferStatus::EMPTY;
-    decode(last_message(*ring_));
+    decode(last_message(cells, *ring_));
     return BufferStatus::OK;
 }
 
@@ -295,7 +300,7 @@ inline BufferStatus PortBuffer::take(std::chrono::nanoseconds timeout, const Dec
         const auto taken = [&] { return (status = try_take(turn, decode)) == BufferStatus::OK; };
         if (!wait(turn.timeout, taken)) return BufferStatus::TIMEOUT;
     }
-    if (turn.wakes && status == BufferStatus::OK) wake();
+    if (turn.wakes && status == BufferStatus::OK && !rehearsing()) wake();
     return status;
 }
 
@@ -305,18 +310,26 @@ BufferStatus PortBuffer::read(ByteData& message, std::chrono::nanoseconds timeou
 
 BufferStatus PortBuffer::readInPlace(ByteData&, Unmarshal& reader, bool& read_in_place) {
     read_in_place = true;
-    if (rehearsing()) return rehearse_read(reader);
+    if (rehearsing() && !prepare_rehearsal_of_read(reader)) return BufferStatus::EMPTY;
     return take(-1ns, [&](const EncodedMessage& from) { decode(from, reader); });
 }
 
-BufferStatus PortBuffer::rehearse_read(Unmarshal& reader) {
-    if (!read_mutex_.lock_if_owner()) return BufferStatus::EMPTY;
+/// Gives the rehearsal the last message to take once more. Only decodes it if it is not a short one. Returns whether the
+/// rehearsal goes on.
+bool PortBuffer::prepare_rehearsal_of_read(Unmarshal& reader) {
+    if (!read_mutex_.lock_if_owner()) return false;
     const ShortLock lock(read_mutex_, std::adopt_lock);
     tandem::rt::note_crossings(ring_->taken());
     ring_->prefetch_for_take();
-    if (!has_last_ || last_message(*ring_).size > longest_rehearsed) return BufferStatus::EMPTY;
-    decode(last_message(*ring_), reader);
-    return BufferStatus::OK;
+    if (!has_last_) return false;
+    const EncodedMessage last = last_message(*ring_, *ring_);
+    if (ring_->taken_short() != nullptr) {
+        tandem::rt::rehearsal_ring().take();
+        tandem::rt::rehearsal_ring().publish_short(last.bytes, last.size);
+        return true;
+    }
+    if (last.size <= longest_rehearsed) decode(last, reader);
+    return false;
 }
 
 // Unlike readable(), looks at no line that the writer writes for each message.

@@ -28,7 +28,7 @@ class PortBuffer final : public CdrBufferBase, public InPlaceBuffer {
                        std::chrono::nanoseconds timeout = std::chrono::nanoseconds(-1)) override;
     BufferStatus writeReporting(const ByteData& message, bool& overwritten) override;
     std::size_t minInPlaceLength() const override { return 0; }
-    /// In a rehearsal encodes the message and does not publish it.
+    /// A rehearsal encodes the message and does not publish it here; see rt::rehearsal_ring().
     BufferStatus writeInPlace(const Marshal& marshal) override;
     std::size_t writable() const override;
     bool full() const override { return writable() == 0; }
@@ -36,7 +36,7 @@ class PortBuffer final : public CdrBufferBase, public InPlaceBuffer {
     /// `timeout` as in write().
     BufferStatus read(ByteData& message,
                       std::chrono::nanoseconds timeout = std::chrono::nanoseconds(-1)) override;
-    /// In a rehearsal decodes the last message once more.
+    /// A rehearsal decodes the last message once more.
     BufferStatus readInPlace(ByteData& message, Unmarshal& reader, bool& read_in_place) override;
     std::size_t readable() const override;
     /// Notes the lines that empty() uses (host/rt/cycle_lines.hpp). Does nothing unless the calling thread owns the end.
@@ -74,8 +74,8 @@ class PortBuffer final : public CdrBufferBase, public InPlaceBuffer {
     bool wait(std::chrono::nanoseconds timeout, const Ready& ready);
     void wake();
     bool publish_encoded(const Marshal& marshal, bool& dropped);
-    void rehearse_write(const Marshal& marshal);
-    BufferStatus rehearse_read(Unmarshal& reader);
+    bool prepare_rehearsal_of_write();
+    bool prepare_rehearsal_of_read(Unmarshal& reader);
     void settle();
     void set_length(std::size_t n);
 
