@@ -13,13 +13,21 @@
 
 namespace tandem::bench::detail {
 
-TANDEM_BENCH_WIDE void fill_large(std::uint64_t* words, std::size_t count, std::uint64_t value) {
+// clang refuses the attribute at the definition of a function that was declared without it.
+namespace {
+TANDEM_BENCH_WIDE void fill_wide(std::uint64_t* words, std::size_t count, std::uint64_t value) {
     fill_words(words, count, value);
 }
-
-TANDEM_BENCH_WIDE std::uint64_t sum_large(const std::uint64_t* words, std::size_t count) {
+TANDEM_BENCH_WIDE std::uint64_t sum_wide(const std::uint64_t* words, std::size_t count) {
     return sum_words(words, count);
 }
+} // namespace
+
+void fill_large(std::uint64_t* words, std::size_t count, std::uint64_t value) {
+    fill_wide(words, count, value);
+}
+
+std::uint64_t sum_large(const std::uint64_t* words, std::size_t count) { return sum_wide(words, count); }
 
 void throw_out_of_order(std::uint64_t got, std::uint64_t wanted) {
     throw std::runtime_error(

@@ -46,6 +46,7 @@ class RtcManagerRequired : public RequiredServicePort {
     void configure(std::string rtc, std::string parameter, std::string value) {
         (*m_configure)(rtc, parameter, value);
     }
+    using RequiredServicePort::reset; // of a port, without an argument
     void activate(std::string rtc) { (*m_activate)(rtc); }
     void deactivate(std::string rtc) { (*m_deactivate)(rtc); }
     void reset(std::string rtc) { (*m_reset)(rtc); }

@@ -3,6 +3,7 @@
 #include "host/process/published/component_states.hpp"
 #include "host/process/published/notices.hpp"
 #include <atomic>
+#include <cstdint>
 #include <optional>
 #include <rtm/RTC.h>
 #include <string>
@@ -60,8 +61,8 @@ class RTObjectStateMachine {
     RTC::ReturnCode_t rateChanged();
 
   private:
-    /// One value, because a cycle looks at both several times.
-    struct States {
+    /// One value, because a cycle looks at both several times. Aligned, because clang else calls libatomic to exchange them.
+    struct alignas(std::uint64_t) States {
         RTC::LifeCycleState current, next; // they differ while a transition is pending
         bool operator==(const States&) const = default;
     };

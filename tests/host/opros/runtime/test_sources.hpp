@@ -86,6 +86,7 @@ inline std::string typeName(Picture*) { return "Picture"; }
 
 class PictureSource : public ArchiveSource {
   public:
+    using ArchiveSource::take;
     void take(unsigned char shade) { waiting_.push_back(shade); }
     opros::archive::iarchive* next() override {
         if (waiting_.empty()) return nullptr;
