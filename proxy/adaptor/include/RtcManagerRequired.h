@@ -28,8 +28,8 @@ class RtcManagerRequired : public RequiredServicePort {
             add(makeRequiredMethod(&RtcManagerRequired::activate, "activate")));
         m_deactivate = reinterpret_cast<RequiredMethod<void>*>(
             add(makeRequiredMethod(&RtcManagerRequired::deactivate, "deactivate")));
-        m_reset = reinterpret_cast<RequiredMethod<void>*>(
-            add(makeRequiredMethod(&RtcManagerRequired::reset, "reset")));
+        void (RtcManagerRequired::*const reset_rtc)(std::string) = &RtcManagerRequired::reset;
+        m_reset = reinterpret_cast<RequiredMethod<void>*>(add(makeRequiredMethod(reset_rtc, "reset")));
         m_state = reinterpret_cast<RequiredMethod<std::string>*>(
             add(makeRequiredMethod(&RtcManagerRequired::state, "state")));
         m_exit = reinterpret_cast<RequiredMethod<void>*>(
