@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/build/first_error.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <regex>
 #include <sstream>
 #include <string_view>
@@ -28,6 +30,39 @@ bool is_located_error(const std::string& line) {
     return !text.starts_with(' ') && !text.starts_with("Warning: ") && !text.starts_with("warning: ");
 }
 
+/// Replaces the text around a name: BEFORE, name, AFTER becomes OPEN, name, CLOSE. Returns the name; "" if it is not there.
+std::string reword(std::string& line, const std::string& before, const std::string& after,
+                   const std::string& open, const std::string& close) {
+    auto name = between(line, before, after);
+    if (!name.empty())
+        line.replace(line.find(before), before.size() + name.size() + after.size(), open + name + close);
+    return name;
+}
+
+/// clang does not say which header a name of std needs.
+bool is_header_of_its_name(const std::string& name) {
+    static const char* const headers[] = {"array", "bitset",  "deque",    "forward_list",  "list",
+                                          "map",   "mutex",   "optional", "queue",         "set",
+                                          "span",  "stack",   "string",   "string_view",   "thread",
+                                          "tuple", "variant", "vector",   "unordered_map", "unordered_set"};
+    return std::find(std::begin(headers), std::end(headers), name) != std::end(headers);
+}
+
+std::string worded_as_gcc(std::string line) {
+    reword(line, "fatal error: '", "' file not found", "fatal error: ", ": No such file or directory");
+    reword(line, "error: unknown type name '", "'", "error: '", "' does not name a type");
+    reword(line, "error: use of undeclared identifier '", "'", "error: '",
+           "' was not declared in this scope");
+    reword(line, "ld.lld: error: undefined symbol: ", "\n", "undefined reference to `", "'\n");
+    for (const std::string kind : {"member", "type", "template"}) {
+        const auto name = reword(line, "error: no " + kind + " named '", "' in namespace 'std'", "error: '",
+                                 "' is not a member of 'std'");
+        if (is_header_of_its_name(name))
+            line.insert(line.find_last_not_of('\n') + 1, "; did you forget to '#include <" + name + ">'?");
+    }
+    return line;
+}
+
 bool is_from_make(const std::string& line) {
     return line.rfind("gmake", 0) == 0 || line.rfind("make", 0) == 0;
 }
@@ -47,6 +82,13 @@ std::string first_error(const std::string& output) {
         if (line.find_first_not_of(" \t") != std::string::npos && !is_from_make(line)) last = line;
     }
     return last;
+}
+
+std::string output_worded_as_gcc(const std::string& output) {
+    std::istringstream lines(output);
+    std::string all;
+    for (std::string line; std::getline(lines, line);) all += worded_as_gcc(line + "\n");
+    return all;
 }
 
 std::string missing_header(const std::string& line) {

@@ -11,6 +11,9 @@ namespace tandem::command {
 /// omniidl; the last line that is not from make if there is none.
 std::string first_error(const std::string& output);
 
+/// Returns a build's output with the errors of clang and lld that the following functions understand in the words of g++ and ld.
+std::string output_worded_as_gcc(const std::string& output);
+
 /// Returns the missing header in an error line of the compiler; "" for any other line.
 std::string missing_header(const std::string& line);
 

@@ -85,7 +85,7 @@ std::string advice(const std::string& error, const Plugin& plugin, const PluginB
     return text;
 }
 
-// Runs one step of CMake. Returns its output if it failed.
+// Runs one step of CMake. Returns its output, in the words of g++, if it failed.
 std::optional<std::string> run_cmake(const std::vector<std::string>& command, double timeout_s,
                                      const std::string& name) {
     process::CommandOptions options;
@@ -105,7 +105,7 @@ std::optional<std::string> run_cmake(const std::vector<std::string>& command, do
                                              "stopped; allow more time with --timeout",
                                              name, timeout_s));
     if (result.succeeded()) return std::nullopt;
-    return result.output;
+    return output_worded_as_gcc(result.output);
 }
 
 /// A failed build that may succeed with a Debian package.

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // What `tandem opros build` and `tandem rtm build` decide before they compile, and what they say when that fails.
+#include "apps/tandem/build/first_error.hpp"
 #include "apps/tandem/build/folder/checkout.hpp"
 #include "apps/tandem/build/folder/cmake_lists.hpp"
 #include "apps/tandem/build/folder/project_files.hpp"
 #include "apps/tandem/build/folder/source_text.hpp"
 #include "apps/tandem/build/include_scan.hpp"
+#include "apps/tandem/build/missing_names.hpp"
 #include "apps/tandem/build/plain_path.hpp"
 #include "apps/tandem/build/remedy.hpp"
 #include "apps/tandem/build/select_sources.hpp"
@@ -12,6 +14,8 @@
 
 #include <catch2/catch.hpp>
 #include <fstream>
+#include <map>
+#include <set>
 #include <sstream>
 
 using namespace tandem::command;
@@ -333,6 +337,24 @@ TEST_CASE("an error about a header or a library is followed by a remedy") {
               "a.cpp:1:2: error: no matching function for call to \u2018cv::Mat::Mat(IplImage*&)\u2019") ==
           "cv::Mat(IplImage*)");
     CHECK(dropped_by_opencv("a.cpp:1:2: error: \u2018helper\u2019 was not declared").empty());
+}
+
+TEST_CASE("errors of clang and lld are understood like those of g++ and ld") {
+    const std::string other = "Old.cpp:3:5: warning: unused variable 'unknown' [-Wunused-variable]\n";
+    const auto output =
+        output_worded_as_gcc(other + "Old.cpp:4:10: fatal error: 'Gain.h' file not found\n"
+                                     "Old.cpp:9:33: error: unknown type name 'BOOL'\n"
+                                     "Old.cpp:9:46: error: use of undeclared identifier 'TRUE'\n"
+                                     "Old.cpp:9:60: error: no type named 'thread' in namespace 'std'\n"
+                                     "Old.cpp:9:70: error: no member named 'sort' in namespace 'std'\n"
+                                     "ld.lld: error: undefined symbol: Helper::get()\n");
+    CHECK(output.starts_with(other));
+    CHECK(missing_headers(output) == Names{"Gain.h"});
+    CHECK(first_error(output) == "Old.cpp:4:10: fatal error: Gain.h: No such file or directory");
+    CHECK(missing_names(output) == std::map<std::string, std::string>{{"BOOL", "typedef int BOOL;"},
+                                                                      {"TRUE", "#define TRUE 1"},
+                                                                      {"<thread>", "#include <thread>"}});
+    CHECK(undefined_symbols(output) == std::set<std::string>{"Helper::get()"});
 }
 
 TEST_CASE("a path is refused only if a reader would take a part of it for its own language") {
