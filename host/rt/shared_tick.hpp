@@ -48,7 +48,7 @@ class SharedTick : public std::enable_shared_from_this<SharedTick> {
     /// Use start().
     explicit SharedTick(Work work) : work_(std::move(work)) {}
 
-    /// Runs the next cycle at once if this tick rests. [any-thread]
+    /// Runs a cycle at once if this tick rests. During a cycle: runs another one after it if it returns `rest`. [any-thread]
     void wake();
     /// Changes the options from the next cycle on. [any-thread]
     void change(const SharedTickOptions& options);

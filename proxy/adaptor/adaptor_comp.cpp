@@ -302,13 +302,13 @@ void AdaptorComp::peer_connected() {
     if (run_state_.is_running()) return activate_for_new_peer();
     // This report may come late, after onStart() has activated the RTCs on this connection and one of them has failed.
     // Only the RTC can end that error.
-    if (is_activated()) return;
+    if (was_activated_on_connection()) return;
     report_inactive();
     request_restart();
 }
 
-/// Returns whether the RTCs have been activated on this connection.
-bool AdaptorComp::is_activated() {
+/// Returns whether the RTCs have been activated on this connection, even if they were deactivated since.
+bool AdaptorComp::was_activated_on_connection() {
     const std::lock_guard lock(life_cycle_mutex_);
     return activated_connection_ == link_->connections();
 }

@@ -83,7 +83,7 @@ class AdaptorComp final : public Component, public engine::DirectoryUser, privat
     void activate_rtc();
     link::CallStatus activate_on_connection();
     void activate_for_new_peer();
-    bool is_activated();
+    bool was_activated_on_connection();
     void report_inactive();
     void request_restart();
     void restart_after_error();

@@ -38,6 +38,7 @@ class MirrorPorts {
     std::vector<engine::RequiredPort*> required() const { return required_.all(); } ///< [any-thread]
     /// Returns the mirror of the peer's required service port of this name; nullptr if there is none. [any-thread]
     engine::RequiredPort* find_required(std::string_view name) const { return required_.find(name); }
+    /// The same by link::port_id() of the name. Takes no lock. [any-thread]
     engine::RequiredPort* find_required(std::uint64_t port_id) const { return required_.find(port_id); }
     /// Returns the reason of a refused connection; empty if none was refused.
     std::string first_refusal() const;

@@ -130,8 +130,9 @@ class CallWorker {
     }
     bool waits_ended() const { return waits_ended_.load(std::memory_order_seq_cst) != 0; }
 
-    /// Callers that begin after close() see it; calls submitted before are seen by take() (CallCaller::begin()).
+    /// Accepts calls. An earlier server may have closed the queue.
     void open() { view_.header->closed.store(0, std::memory_order_relaxed); }
+    /// Refuses calls. Callers that begin afterwards see it; take() finds calls that were submitted before (CallCaller::begin()).
     void close() { view_.header->closed.store(1, std::memory_order_seq_cst); }
     bool closed() const { return view_.header->closed.load(std::memory_order_relaxed) != 0; }
 

@@ -55,7 +55,7 @@ class RingFollower {
     bool may_have_come();
 
     std::uint64_t delivered() const { return delivered_; } ///< messages
-    std::uint64_t lost() const { return lost_; }           ///< messages that were published and not delivered
+    std::uint64_t lost() const { return lost_; }           ///< messages overwritten before they were copied
     /// Returns true if the file has ended, or holds what no writer stores. Then nothing more is delivered.
     bool damaged() const { return damaged_; }
 

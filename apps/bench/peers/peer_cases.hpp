@@ -14,7 +14,8 @@
 namespace tandem::bench {
 
 /// Tandem's ring with a sleeping reader, for comparison with peers that sleep. On one core, its wait mode is
-/// same-core, which yields before it sleeps.
+/// same-core, which yields before it sleeps. The second argument, which for_each_window() passes, is unused: a new segment
+/// is in another place anyway.
 class SleepingTandemRing : public RingEndpoint<64, Wake::blocking> {
   public:
     SleepingTandemRing(Session& session, std::size_t /*place*/) : RingEndpoint(session, how(session)) {}

@@ -87,9 +87,9 @@ class BenchLink {
     std::unique_ptr<shm::Segment> segment_;
 };
 
-/// Writes one message of `bytes` as the proxy writes a port's value: encodes it into the ring's memory for
-/// short messages, or into a chunk of the ring. Throws std::runtime_error if the ring refuses it, which an
-/// intact ring never does.
+/// Writes one message of `bytes`, with `sequence` as its content and stamp, as the proxy writes a port's value: creates a
+/// short one in scratch(), from where it is copied into the ring, and a long one in a chunk of the ring. Throws
+/// std::runtime_error if the ring refuses it, which an intact ring never does.
 inline void write_message(shm::RingWriter& ring, std::size_t bytes, std::uint64_t sequence) {
     bool written = false;
     if (bytes <= ring.max_record()) {

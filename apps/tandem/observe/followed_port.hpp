@@ -37,7 +37,7 @@ struct PortNames {
     int tables = 0; ///< number of sides whose port table is there
 };
 
-/// Returns the names in both sides' port tables.
+/// Returns the names that are in either side's port table. Skips damaged tables and tables that are being changed.
 PortNames find_port_names(const shm::Observation& observation);
 
 /// The component models of both sides, by shm::index_of(). Empty: unknown.

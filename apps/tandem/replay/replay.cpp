@@ -267,7 +267,7 @@ class Replay {
     /// Steps through a real-time recording. Each tick sends the events of that time, and then runs the other hosts'
     /// cycles.
     void run_ticks(SteppedHosts& hosts, const std::vector<SteppedComponent>& components) {
-        const auto tick_ns = static_cast<std::uint64_t>(hosts.tick().count());
+        const auto tick_ns = static_cast<std::uint64_t>(hosts.tick_period().count());
         std::optional<std::uint64_t> end_ns; // end of the tick
         const auto run_tick = [&] {
             for (const auto& each : components) {

@@ -29,10 +29,10 @@ class SteppedHosts {
     /// Stops the hosts. Returns true if all ended normally.
     bool stop();
 
-    /// The components of the other hosts by the application's periods, for a recording without steps; and
-    /// its tick.
+    /// Returns the components of the other hosts by the application's periods, for a recording without steps.
     const std::vector<SteppedComponent>& find_components();
-    std::chrono::nanoseconds tick() const { return tick_; }
+    /// Returns the shortest period of all components, also of the replaced host; 0 before find_components().
+    std::chrono::nanoseconds tick_period() const { return tick_; }
 
   private:
     void handle(const hosts::Supervisor::Events& events);

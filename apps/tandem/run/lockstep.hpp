@@ -49,7 +49,7 @@ class HostSteps {
 /// period; a component with a longer period runs in the tick in which its period ends.
 class Lockstep {
   public:
-    /// Throws std::runtime_error if there is nothing to step.
+    /// Throws std::runtime_error if no component has a period.
     explicit Lockstep(std::vector<SteppedComponent> components);
 
     /// Returns the path of the socket for a host to listen on.

@@ -31,7 +31,8 @@ struct InventoryHead {
 };
 
 /// Lists a part, or replaces what was listed for it. `part` identifies it until unlist_part(). The cost depends on the length
-/// of the line only. Without memory for the file, nothing is listed. [any-thread; waits for no component]
+/// of the line, except that the text is sometimes compacted. If a write to the file fails, the file is closed, and nothing is
+/// listed from then on. [any-thread; waits for no component]
 void list_part(const void* part, const std::vector<std::string>& fields);
 
 /// Takes the part off the list, if it is listed. [any-thread]

@@ -27,7 +27,8 @@ class RtcConnectorRequired : public RequiredServicePort {
     void connect(std::string from, std::string to, Names properties) { (*m_connect)(from, to, properties); }
     /// Ends all connections between the two ports.
     void disconnect(std::string from, std::string to) { (*m_disconnect)(from, to); }
-    /// Returns the names of the ports that the port is connected with.
+    /// Returns the names of the connected ports as their RTCs report them: `Name0.port`, without an address even for
+    /// another host. One entry for each connection.
     Names connections(std::string port) { return (*m_connections)(port); }
 
   private:

@@ -27,7 +27,7 @@ class ValueType {
     virtual void encode(opros_any& value, wire::CdrWriter& out) const = 0;
     /// Decodes into a value of this type. Throws archive_type_exception if the bytes are not such a value.
     virtual void decode(opros_any& value, wire::CdrReader& in) const = 0;
-    /// Encodes an argument of a call; returns false if it has another type.
+    /// Encodes an argument of a call; returns false if it has another type. Throws as encode().
     virtual bool encode_param(opros_params& value, wire::CdrWriter& out) const = 0;
     virtual opros_params decode_param(wire::CdrReader& in) const = 0;
     /// Copies from CDR to an archive, and back. Throw the archive's exceptions and archive_type_exception.

@@ -155,7 +155,8 @@ void OprosRtcs::follow(const std::string& name) {
         std::this_thread::sleep_for(follow_pause);
 }
 
-/// Returns nullptr, with a line in the log, when the manager refuses it.
+/// Creates and stores the RTC of the shared component. Returns nullptr if it is not shared any more, or, with a line in the log,
+/// if the manager refuses it.
 OprosRtc* OprosRtcs::create(const std::string& name) {
     OprosRtc::Source source;
     {

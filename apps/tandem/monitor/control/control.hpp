@@ -80,6 +80,7 @@ class Control {
     std::string recording_failure();
 
   private:
+    // Each executes the requests with an `op` of docs/monitoring.md and calls `reply` once. Throws std::exception for a bad one.
     void drive(const nlohmann::json& request, const Reply& reply);
     void run_tool(const nlohmann::json& request, const Reply& reply);
     void record(const nlohmann::json& request, const Reply& reply);

@@ -37,7 +37,8 @@ class InventoryReader {
     std::map<std::uint32_t, Process> processes_;
 };
 
-/// Adds the parts that the text of an inventory lists to `inventory`, sorted by name. Counts other lines as left out.
+/// Adds the parts that the text of an inventory lists to `inventory`: components sorted by name, contexts by owner, ports by
+/// component and name, and connections as ids of ports. Counts other lines as left out.
 void parse_inventory(const std::string& text, HostInventory& inventory);
 
 } // namespace tandem::monitor

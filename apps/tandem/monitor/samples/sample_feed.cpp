@@ -72,8 +72,8 @@ void SampleFeed::add(SampleClient& client) {
     if (!looks_) look();
 }
 
-/// Only ports of links that the monitor shows.
-void SampleFeed::update_ports() {
+/// Follows the ports that clients want, of links that the monitor shows. Those beyond max_ports go to left_out_.
+void SampleFeed::update_followed() {
     std::set<std::string> shown;
     for (const LinkState& link : state_().links)
         if (link.readable) shown.insert(link.name);
@@ -103,7 +103,7 @@ void SampleFeed::read_ports() {
 
 void SampleFeed::look() {
     looks_ = !clients_.empty();
-    update_ports();
+    update_followed();
     if (!looks_) return;
     read_ports();
     const auto clients = clients_; // a copy, because a client may leave meanwhile

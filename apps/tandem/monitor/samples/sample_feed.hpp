@@ -74,7 +74,7 @@ class SampleFeed {
     };
 
     void look();
-    void update_ports();
+    void update_followed();
     void read_ports();
     void poll(const SamplePort& port, Followed& followed, Round& round);
     void add_sample(const SamplePort& port, Followed& followed, const command::FollowedPort& of,

@@ -98,8 +98,9 @@ void RTObjectStateMachine::noteFailure() {
     if (local_ != nullptr) failure_ = RTC::take_callback_failure(local_);
 }
 
-// Publishes the reason before the state, so that an observer that sees the state sees the reason, too.
-void RTObjectStateMachine::publish(LifeCycleState state) {
+// Shows the state to other processes (host/process/published). Publishes the reason before it, so that an observer that sees the
+// state sees the reason, too.
+void RTObjectStateMachine::publishState(LifeCycleState state) {
     if (state == ERROR_STATE && !failure_.empty())
         reason_.emplace(tandem::process::NoticeKind::component, name_ + ": " + failure_);
     published_->set(state == ACTIVE_STATE  ? ComponentState::active
@@ -110,7 +111,7 @@ void RTObjectStateMachine::publish(LifeCycleState state) {
 
 // Ends a transition. If on_activated has failed, the component counts as active until the next step aborts it.
 void RTObjectStateMachine::enterState(LifeCycleState state, bool entered) {
-    if (published_) publish(state);
+    if (published_) publishState(state);
     // An error that was requested meanwhile stays pending.
     States now = states_;
     while (!states_.compare_exchange_weak(now, {state, entered ? now.next : ERROR_STATE})) continue;

@@ -76,7 +76,7 @@ class RTObjectStateMachine {
     RTC::ReturnCode_t executeComponent();
     void requestErrorState();
     void noteFailure();
-    void publish(RTC::LifeCycleState state);
+    void publishState(RTC::LifeCycleState state);
     void enterState(RTC::LifeCycleState state, bool entered);
 
     // First what each cycle uses.

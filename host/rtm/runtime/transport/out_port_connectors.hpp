@@ -35,10 +35,10 @@ class OutPortPushConnector final : public OutPortConnector {
     DataPortStatus disconnect() override;
     /// Returns the publisher's buffer, or NULL without a publisher.
     CdrBufferBase* getBuffer() override { return publisher_ ? &publisher_->buffer() : nullptr; }
-    /// Returns the messages that the publisher's buffer has lost; 0 without a publisher, because the writer then knows
+    /// Returns the number of messages that the publisher's buffer has lost; 0 without a publisher, because the writer then knows
     /// of each loss.
     std::uint64_t lost() const { return publisher_ ? publisher_->lost() : 0; }
-    /// Returns the messages that write() has queued for another machine and that have not arrived, or not yet.
+    /// Returns the number of messages that write() has queued for another machine and that have not arrived, or not yet.
     std::uint64_t undelivered() const { return remote_push_ ? remote_push_->undelivered() : 0; }
     /// Tells the connector whether it is the only one of its port. If not, the other connectors must not wait for a
     /// receiver that hangs. [with the port's m_dataMutex held, like write()]

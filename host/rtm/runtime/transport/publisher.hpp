@@ -35,7 +35,7 @@ class Publisher {
     /// to whether a waiting message was dropped to make room.
     DataPortStatus write(const ByteData& bytes, bool& overwritten);
     CdrBufferBase& buffer() { return buffer_; }
-    /// Returns the messages that the buffer did not accept, or did not keep until their turn. Never too high while
+    /// Returns the number of messages that the buffer did not accept, or did not keep until their turn. Never too high while
     /// messages are in progress. [any-thread]
     std::uint64_t lost() const;
 

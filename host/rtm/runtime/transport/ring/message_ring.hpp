@@ -88,7 +88,8 @@ class MessageRingReader {
     bool is_corrupt() const;
     /// Returns the segment, for a MessageServer.
     const std::shared_ptr<tandem::shm::Segment>& segment() const { return segment_; }
-    const tandem::shm::CallQueueHandle& calls() const { return *calls_; }
+    /// Returns the queue of the writer's calls (MessageRingWriter::call_server()), for a MessageServer.
+    const tandem::shm::CallQueueHandle& call_queue() const { return *calls_; }
     /// Permits the writer, from now on, to call the MessageServer.
     void permit_calls() { state_->serves_calls.store(1, std::memory_order_release); }
 

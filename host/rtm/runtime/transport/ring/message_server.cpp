@@ -13,7 +13,7 @@ namespace shm = tandem::shm;
 struct MessageServer::State {
     State(MessageRingReader& reader, std::shared_ptr<const ServantOwner> servant_owner,
           Receive receive_messages)
-        : segment(reader.segment()), calls(reader.calls(), {.mode = shm::WaitMode::futex}),
+        : segment(reader.segment()), calls(reader.call_queue(), {.mode = shm::WaitMode::futex}),
           owner(std::move(servant_owner)), receive(std::move(receive_messages)) {}
 
     /// [the server's thread]
