@@ -9,7 +9,7 @@ extern constinit thread_local bool this_thread_rehearses [[gnu::tls_model("initi
 
 /// Returns whether this thread rehearses its next cycle. A rehearsal runs the code of the cycle without its effects, so
 /// that its code and data are in the caches when the tick comes: it calls no callback of a component, publishes and
-/// takes no message, and waits for no lock of a port. The functions where an effect would take place call this; the
+/// takes no message of a port, and waits for no lock of a port. The functions where an effect would take place call this; the
 /// functions on the way there do not. Figures: docs/performance.md.
 inline bool rehearsing() noexcept { return this_thread_rehearses; }
 

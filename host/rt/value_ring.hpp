@@ -11,7 +11,7 @@ using CellRing = BasicCellRing<shm::RealAtomics>;
 extern template class BasicCellRing<shm::RealAtomics>;
 
 /// Returns the ring that rehearsals of this thread use instead of a port's: they publish short values into it and take them, so
-/// that this code is in the caches, too. It has a depth of 1, and is empty between two rehearsals.
+/// that this code is in the caches, too. It has a depth of 1. The next rehearsal drops what is left in it.
 CellRing& rehearsal_ring();
 
 /// A queue of values between two threads: a CellRing with its values.

@@ -53,7 +53,8 @@ std::string worded_as_gcc(std::string line) {
     reword(line, "error: unknown type name '", "'", "error: '", "' does not name a type");
     reword(line, "error: use of undeclared identifier '", "'", "error: '",
            "' was not declared in this scope");
-    reword(line, "ld.lld: error: undefined symbol: ", "\n", "undefined reference to `", "'\n");
+    reword(line, "error: undefined symbol: ", "\n", "error: undefined reference to `", "'\n");
+    reword(line, "error: unable to find library -l", "\n", "error: cannot find -l", "\n");
     for (const std::string kind : {"member", "type", "template"}) {
         const auto name = reword(line, "error: no " + kind + " named '", "' in namespace 'std'", "error: '",
                                  "' is not a member of 'std'");

@@ -85,7 +85,7 @@ std::string advice(const std::string& error, const Plugin& plugin, const PluginB
     return text;
 }
 
-// Runs one step of CMake. Returns its output, in the words of g++, if it failed.
+// Runs one step of CMake. Returns its output if it failed.
 std::optional<std::string> run_cmake(const std::vector<std::string>& command, double timeout_s,
                                      const std::string& name) {
     process::CommandOptions options;
@@ -105,7 +105,7 @@ std::optional<std::string> run_cmake(const std::vector<std::string>& command, do
                                              "stopped; allow more time with --timeout",
                                              name, timeout_s));
     if (result.succeeded()) return std::nullopt;
-    return output_worded_as_gcc(result.output);
+    return result.output;
 }
 
 /// A failed build that may succeed with a Debian package.
@@ -120,7 +120,8 @@ struct MissingPackage : std::runtime_error {
 [[noreturn]] void fail(const std::string& output, const Plugin& plugin, const PluginBuildOptions& options,
                        const std::string& what) {
     print_text(output);
-    const std::string error = first_error(output), remedy = advice(error, plugin, options);
+    const std::string error = first_error(output_worded_as_gcc(output)),
+                      remedy = advice(error, plugin, options);
     const auto message = "component " + plugin.name + " " + what + ": " + error +
                          (remedy.empty() ? "" : "; " + remedy) + " (the compiler's output is above" +
                          (plugin.problem.empty() ? "" : "; " + plugin.problem) + ")";
@@ -248,9 +249,10 @@ void compile(Plugin& plugin, const PluginBuildOptions& options, const fs::path& 
         output =
             run_cmake({"cmake", "--build", bin, "--parallel", processors}, options.timeout_s, plugin.name);
         if (!output) return;
-        if (!add_neighbours(*output, options.folder, plugin.neighbours) && !add_installed(*output, plugin) &&
-            !add_cv_h(*output, plugin) && !add_names(*output, plugin.missing_names) &&
-            !add_sources(*output, options, plugin) && !add_libraries(*output, plugin.linked))
+        const std::string errors = output_worded_as_gcc(*output);
+        if (!add_neighbours(errors, options.folder, plugin.neighbours) && !add_installed(errors, plugin) &&
+            !add_cv_h(errors, plugin) && !add_names(errors, plugin.missing_names) &&
+            !add_sources(errors, options, plugin) && !add_libraries(errors, plugin.linked))
             fail(*output, plugin, options, "does not compile");
     }
 }

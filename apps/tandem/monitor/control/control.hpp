@@ -80,13 +80,14 @@ class Control {
     std::string recording_failure();
 
   private:
-    // Each executes the requests with an `op` of docs/monitoring.md and calls `reply` once. Throws std::exception for a bad one.
+    // Each executes the requests with an `op` of docs/monitoring.md, as handle(). Throws std::exception for a bad one.
     void drive(const nlohmann::json& request, const Reply& reply);
     void run_tool(const nlohmann::json& request, const Reply& reply);
     void record(const nlohmann::json& request, const Reply& reply);
     void replay(const nlohmann::json& request, const Reply& reply);
     void change_systems(const nlohmann::json& request, const Reply& reply);
     void report(const nlohmann::json& request, const std::string& op, const Reply& reply) const;
+
     std::string recording();
     void run(const std::vector<std::string>& command, const nlohmann::json& request, const Reply& reply);
 

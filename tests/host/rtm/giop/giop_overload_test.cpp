@@ -187,15 +187,14 @@ TEST_CASE("At the limit, the connection that has been idle for longest gives way
         REQUIRE(gets_reply(fd));
         char rest[4096];
         recv(fd, rest, sizeof rest, MSG_DONTWAIT);
+        // A connection is idle only when its thread has sent the reply and waits again.
+        REQUIRE(other.host.wait_until_idle());
     };
     for (int i = 0; i < 10; ++i) {
         all.push_back(sockets.open(other.port));
         use(all.back());
     }
     use(all.front());
-    REQUIRE(
-        other.host
-            .wait_until_idle()); // a connection is idle only when its thread has sent the reply and waits again
     const int newcomer = sockets.open(other.port);
     REQUIRE(send_all(newcomer, question));
     CHECK(gets_reply(newcomer));

@@ -272,8 +272,11 @@ TEST_CASE(
     CHECK_FALSE(reader.valid);
 }
 
-TEST_CASE("A rehearsal at a port's buffer publishes nothing and takes nothing") {
+TEST_CASE("A rehearsal at a port's buffer publishes nothing, takes nothing and does not wait") {
+    const bool waits = GENERATE(false, true);
+    INFO("waits: " << waits);
     RTC::PortBuffer buffer;
+    if (waits) buffer.init(properties("block", "block", 1));
     const auto sent = numbers<RTC::TimedDoubleSeq>(6);
     RTC::TimedDoubleSeq received{};
     RTC::CdrUnmarshal<RTC::TimedDoubleSeq> reader(received);
@@ -297,4 +300,10 @@ TEST_CASE("A rehearsal at a port's buffer publishes nothing and takes nothing") 
     REQUIRE(buffer.readInPlace(bytes, reader, in_place) == BufferStatus::OK);
     CHECK(received.data.length() == 6);
     CHECK(buffer.readable() == 0);
+    buffer.reset();
+    {
+        const tandem::rt::Rehearsal rehearsal;
+        CHECK(buffer.readInPlace(bytes, reader_again, in_place) == BufferStatus::EMPTY);
+    }
+    CHECK(buffer.read(bytes, 0ns) == BufferStatus::EMPTY);
 }

@@ -285,7 +285,7 @@ inline BufferStatus PortBuffer::try_take(Turn& turn, const Decode& decode) {
     if (turn.waits && turn.timeout < 0ns) turn.timeout = read_timeout_;
     CellRing& cells = cells_for(*ring_);
     if (cells.take())
-        has_last_ = true;
+        has_last_ = has_last_ || !rehearsing();
     else if (turn.waits || !readback_ || !has_last_)
         return BufferStatus::EMPTY;
     decode(last_message(cells, *ring_));
