@@ -39,7 +39,7 @@ std::string reword(std::string& line, const std::string& before, const std::stri
     return name;
 }
 
-/// clang does not say which header a name of std needs.
+/// Returns whether a standard header of this name declares the name. clang does not say which header is missing.
 bool is_header_of_its_name(const std::string& name) {
     static const char* const headers[] = {"array", "bitset",  "deque",    "forward_list",  "list",
                                           "map",   "mutex",   "optional", "queue",         "set",

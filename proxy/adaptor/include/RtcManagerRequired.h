@@ -46,9 +46,9 @@ class RtcManagerRequired : public RequiredServicePort {
     void configure(std::string rtc, std::string parameter, std::string value) {
         (*m_configure)(rtc, parameter, value);
     }
-    using RequiredServicePort::reset; // of a port, without an argument
     void activate(std::string rtc) { (*m_activate)(rtc); }
     void deactivate(std::string rtc) { (*m_deactivate)(rtc); }
+    using RequiredServicePort::reset; // of a port, without an argument
     void reset(std::string rtc) { (*m_reset)(rtc); }
     /// Returns INACTIVE, ACTIVE or ERROR, the state in the first execution context.
     std::string state(std::string rtc) { return (*m_state)(rtc); }

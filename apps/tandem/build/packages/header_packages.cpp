@@ -10,7 +10,7 @@
 namespace tandem::command {
 namespace {
 
-// Lines of header_packages.txt. Not of std::string_view: counting all characters takes more steps than clang allows in a constant.
+// Lines of header_packages.txt. As std::string_view, they would take more steps than clang allows in a constant expression.
 constexpr const char* lines[] = {
 #include "header_packages.inc"
 };
