@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rt/value_ring.hpp"
 
+#include <memory>
+
 namespace tandem::rt {
 
 template class BasicCellRing<shm::RealAtomics>;

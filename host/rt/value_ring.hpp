@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/rt/cell_ring.hpp"
+#include "host/rt/rehearsal.hpp"
 
 #include <vector>
 
@@ -13,6 +14,9 @@ extern template class BasicCellRing<shm::RealAtomics>;
 /// Returns the ring that rehearsals of this thread use instead of a port's: they publish short values into it and take them, so
 /// that this code is in the caches, too. It has a depth of 1. The next rehearsal drops what is left in it.
 CellRing& rehearsal_ring();
+
+/// Returns where this thread publishes and takes the short values of a ring: in a rehearsal, in rehearsal_ring().
+inline CellRing& cells_for(CellRing& ring) { return rehearsing() ? rehearsal_ring() : ring; }
 
 /// A queue of values between two threads: a CellRing with its values.
 template <class Value>

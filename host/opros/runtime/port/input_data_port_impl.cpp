@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <typeinfo>
 
+using tandem::rt::cells_for;
 using tandem::rt::rehearsing;
 
 namespace {
@@ -76,11 +77,6 @@ inline std::optional<opros_any::holder_base::Memory> InputDataPortImpl::short_el
     return elements.bytes <= Ring::Content::max_size ? std::optional(elements) : std::nullopt;
 }
 
-/// Returns where this thread publishes and takes short values: in a rehearsal, not in the port's ring.
-inline tandem::rt::CellRing& InputDataPortImpl::cells() {
-    return rehearsing() ? tandem::rt::rehearsal_ring() : *ring_;
-}
-
 inline void InputDataPortImpl::push_into_ring(opros_any& value) {
     const auto elements = short_elements(value);
     if (rehearsing()) {
@@ -93,7 +89,7 @@ inline void InputDataPortImpl::push_into_ring(opros_any& value) {
     if (is_long)
         push_long(value);
     else
-        cells().publish_short(elements->begin, elements->bytes);
+        cells_for(*ring_).publish_short(elements->begin, elements->bytes);
 }
 
 // A new value gets an object that this port's code has created, and the copy is assigned to it. The given object may belong
@@ -165,12 +161,12 @@ inline opros_any* InputDataPortImpl::pop_from_ring() {
         tandem::rt::rehearsal_ring().take();
         tandem::rt::rehearsal_ring().publish_short(last->bytes(), last->size());
     }
-    return cells().take() ? pool_.lend(taken()) : found_nothing();
+    return cells_for(*ring_).take() ? pool_.lend(taken()) : found_nothing();
 }
 
 /// Returns the value that was taken or peeked at last.
 inline opros_any& InputDataPortImpl::taken() {
-    const Ring::Content* const value = cells().taken_short();
+    const Ring::Content* const value = cells_for(*ring_).taken_short();
     if (value == nullptr) return ring_->last();
     prepare_decoded();
     opros_any::holder_base& held = *decoded_.held();

@@ -60,8 +60,6 @@ class InputDataPortImpl {
 
     bool has_my_type(const opros_any::holder_base& held);
     bool has_equal_type(const opros_any::holder_base& held);
-    // Requires the mutex of the end that is used to be held.
-    tandem::rt::CellRing& cells();
     // Require push_mutex_ to be held.
     std::optional<opros_any::holder_base::Memory> short_elements(opros_any& value);
     void push_into_ring(opros_any& value);

@@ -13,6 +13,7 @@
 namespace RTC {
 
 using tandem::rt::CellRing;
+using tandem::rt::cells_for;
 using tandem::rt::rehearsing;
 using tandem::rt::ShortLock;
 using namespace std::chrono_literals;
@@ -109,9 +110,6 @@ EncodedMessage last_message(const CellRing& cells, Ring& ring) {
     const ByteData& last = ring.last();
     return {last.getBuffer(), last.getDataLength(), last.getEndian()};
 }
-
-/// Returns where this thread publishes and takes short messages.
-CellRing& cells_for(Ring& ring) { return rehearsing() ? tandem::rt::rehearsal_ring() : ring; }
 
 /// Publishes the message in the writer's ByteData. Returns whether the oldest one was dropped for it.
 bool publish_next(Ring& ring) {
