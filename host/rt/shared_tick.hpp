@@ -63,8 +63,8 @@ class SharedTick : public std::enable_shared_from_this<SharedTick> {
     bool rests_ = false, woken_ = false, left_ = false, overran_ = false;
     std::int64_t took_ = 0;                         // duration of the last cycle
     int slow_cycles_ = 0;                           // in a row
-    CycleLines lines_;                              // used by the thread alone
     const Work work_;                               // the cycle is its first member
+    CycleLines lines_;                              // used by the thread alone
     std::optional<SharedTickOptions> next_options_; // set in a cycle
     std::shared_ptr<TickThread> thread_;
 };

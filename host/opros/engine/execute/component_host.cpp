@@ -7,6 +7,7 @@
 #include "host/opros/engine/load/device_library.hpp"
 #include "host/opros/engine/load/load_component.hpp"
 #include "host/process/published/inventory.hpp"
+#include "host/rt/cycle_lines.hpp"
 #include "host/rt/periodic_tick.hpp"
 #include "host/rt/rehearsal.hpp"
 
@@ -362,10 +363,21 @@ std::string ComponentHost::execute() {
     return guard("onExecute", [this] {
         if (rt::rehearsing()) {
             rt::prefetch(*component_);
+            note_lines();
             return rehearse_ports();
         }
         log_return_code("onExecute", component_->onExecute(), last_execute_);
     });
+}
+
+/// Reports the lines that execute() and update() use, apart from those of the ports.
+void ComponentHost::note_lines() const {
+    const auto *const first = reinterpret_cast<const std::byte*>(&name_),
+                      *const end = reinterpret_cast<const std::byte*>(&dependents_ + 1);
+    rt::note_lines(first, static_cast<std::size_t>(end - first));
+    const LifecycleInterface& state = *component_;
+    rt::note_lines(&state, sizeof state);
+    rt::note_lines(component_.get(), sizeof(void*)); // its virtual functions
 }
 
 std::string ComponentHost::update() {

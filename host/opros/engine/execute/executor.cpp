@@ -3,6 +3,7 @@
 
 #include "host/log/log.hpp"
 #include "host/process/start_thread.hpp"
+#include "host/rt/cycle_lines.hpp"
 #include "host/rt/periodic_tick.hpp"
 #include "host/rt/thread.hpp"
 
@@ -50,6 +51,7 @@ bool Executor::start_in_shared_thread() {
     shared_tick_ = rt::SharedTick::start({profile.period, profile.phase, thread},
                                          {cycle,
                                           [this, tick] {
+                                              note_lines();
                                               tick->note_lines();
                                               rehearse();
                                           },
@@ -115,6 +117,14 @@ void Executor::run_cycle() {
 // Calls the same function as the cycle, so that the caches hold the code that will run.
 void Executor::rehearse() {
     for (ComponentHost* component : components_) component->execute();
+}
+
+/// Reports the lines that a cycle in a shared thread uses besides those of the tick and the components.
+void Executor::note_lines() const {
+    rt::note_lines(&components_, sizeof components_);
+    rt::note_lines(components_.data(), components_.size() * sizeof(ComponentHost*));
+    rt::note_lines(&trigger_, sizeof trigger_);
+    rt::note_lines(trigger_.get(), sizeof(void*)); // its virtual functions
 }
 
 std::vector<std::unique_ptr<Executor>> make_executors(const std::vector<ComponentHost*>& components,

@@ -47,6 +47,7 @@ class Executor {
     rt::ThreadOptions thread_options() const;
     bool start_in_shared_thread();
     void rehearse();
+    void note_lines() const;
 
     std::vector<ComponentHost*> components_;
     ExecutorOptions options_;

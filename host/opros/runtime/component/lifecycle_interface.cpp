@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "host/rt/cycle_lines.hpp"
+
 #include <LifecycleInterface.h>
 
 #include <algorithm>
@@ -24,7 +26,10 @@ typedef std::lock_guard<std::recursive_mutex> Transition;
 LifecycleInterface::LifecycleInterface() : m_lifecycle(new opros::detail::lifecycle_state) {}
 LifecycleInterface::~LifecycleInterface() { delete m_lifecycle; }
 
-LifecycleState LifecycleInterface::getStatus() { return m_lifecycle->state.load(); }
+LifecycleState LifecycleInterface::getStatus() {
+    tandem::rt::note_lines(m_lifecycle, sizeof m_lifecycle->state); // each cycle reads the state
+    return m_lifecycle->state.load();
+}
 ReturnType LifecycleInterface::getErrorInfo() { return m_lifecycle->error.load(); }
 
 /// Returns false if a callback has failed, and stores its code for getErrorInfo().

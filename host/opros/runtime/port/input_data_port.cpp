@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/opros/runtime/port/input_data_port_impl.hpp"
+#include "host/rt/cycle_lines.hpp"
 #include "host/rt/rehearsal.hpp"
 
 InputDataPortInterface::InputDataPortInterface() : InputDataPortInterface("") {}
@@ -19,6 +20,7 @@ opros_any* InputDataPortInterface::peek() { return m_impl->peek(); }
 opros_any* InputDataPortInterface::pop() { return m_impl->pop(); }
 void InputDataPortInterface::rehearse() {
     const tandem::rt::Rehearsal rehearsal;
+    tandem::rt::note_lines(this, sizeof *this);
     delete m_impl->pop();
 }
 std::size_t InputDataPortInterface::countWaiting() { return m_impl->count_waiting(); }

@@ -2,6 +2,7 @@
 #include "host/opros/runtime/port/input_data_port_impl.hpp"
 
 #include "host/rt/crossings.hpp"
+#include "host/rt/cycle_lines.hpp"
 #include "host/rt/rehearsal.hpp"
 
 #include <algorithm>
@@ -154,6 +155,9 @@ opros_any* InputDataPortImpl::pop_after(ReadResult result) {
 
 inline opros_any* InputDataPortImpl::pop_from_ring() {
     if (rehearsing()) {
+        tandem::rt::note_lines(this, line);
+        tandem::rt::note_lines(&mutex_, line);
+        ring_->note_lines_of_empty();
         tandem::rt::note_crossings(ring_->taken());
         ring_->prefetch_for_take();
         const Ring::Content* const last = ring_->taken_short();

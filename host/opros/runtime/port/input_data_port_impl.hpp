@@ -96,6 +96,7 @@ class InputDataPortImpl {
     alignas(line) tandem::rt::ShortMutex push_mutex_; // for the end of ring_ that writes
 
     alignas(line) tandem::rt::ShortMutex mutex_; // for all that follows, and the other end of ring_
+    unsigned empty_pops_ = 0;                    // pops that found the ring or the sources empty
     opros::DataQueue queue_;
     // set if there is exactly one source and the queue keeps the order
     DataPortSource* sole_source_ = nullptr;
@@ -104,6 +105,5 @@ class InputDataPortImpl {
     // Values of sources and short ones of the ring are decoded here first: a broken one must not damage the queue.
     opros_any decoded_;
     opros::ValuePool pool_;
-    unsigned empty_pops_ = 0; // pops that found the ring or the sources empty
     bool queue_is_default_ = false;
 };
