@@ -48,7 +48,7 @@ class Floor {
     /// Adds how often this thread has lost its core since its last report.
     void note_switches() {
         const std::uint64_t now = thread_switches();
-        words().switches.fetch_add(now - std::exchange(noted_switches(), now), std::memory_order_acq_rel);
+        shared().switches.fetch_add(now - std::exchange(noted_switches(), now), std::memory_order_acq_rel);
     }
 
     /// Does the same for threads that sleep for one path only and take turns. Switches before the half of the
@@ -64,22 +64,22 @@ class Floor {
     void end() { store_half(no_half); }
     /// [measures] Adds the time of a message over the rings, in a window that counts.
     void add_time(double ns) {
-        const std::uint64_t count = words().times.load(std::memory_order_relaxed);
+        const std::uint64_t count = shared().times.load(std::memory_order_relaxed);
         if (count == max_times) return;
-        words().ns[count].store(ns, std::memory_order_relaxed);
-        words().times.store(count + 1, std::memory_order_release);
+        shared().ns[count].store(ns, std::memory_order_relaxed);
+        shared().times.store(count + 1, std::memory_order_release);
     }
     /// Returns these times; only the first 300 are kept.
     std::vector<double> times() const {
         const std::uint64_t count =
-            std::min<std::uint64_t>(words().times.load(std::memory_order_acquire), max_times);
+            std::min<std::uint64_t>(shared().times.load(std::memory_order_acquire), max_times);
         std::vector<double> all;
         for (std::uint64_t i = 0; i < count; ++i)
-            all.push_back(words().ns[i].load(std::memory_order_relaxed));
+            all.push_back(shared().ns[i].load(std::memory_order_relaxed));
         return all;
     }
     /// [measures] Returns how often threads of both sides have lost their cores, as they have reported.
-    std::uint64_t switches() const { return words().switches.load(std::memory_order_acquire); }
+    std::uint64_t switches() const { return shared().switches.load(std::memory_order_acquire); }
 
     /// [answers] Returns whether the rings are in use. Call it for each message: when the path changes, it
     /// records this thread's switches.
@@ -99,24 +99,24 @@ class Floor {
     /// [answers] Sleeps while the bridge is in use.
     void sleep_beside_bridge() {
         for (std::uint32_t now = half(); now % 2 == 0 && now != no_half; now = half())
-            syscall(SYS_futex, &words().half, FUTEX_WAIT, now, nullptr, nullptr, 0);
+            syscall(SYS_futex, &shared().half, FUTEX_WAIT, now, nullptr, nullptr, 0);
     }
 
   private:
     static constexpr std::size_t page = 4096;
     static constexpr std::uint32_t no_half = 0xffff'fffe;
     static constexpr std::size_t max_times = 300;
-    struct Words {
+    struct SharedState {
         alignas(128) std::atomic<std::uint32_t> half; // of a window, counted; the odd ones go over the rings
         alignas(128) std::atomic<std::uint64_t> switches;
         std::atomic<std::uint64_t> times;
         std::atomic<double> ns[max_times];
     };
-    static_assert(sizeof(Words) <= page);
-    std::uint32_t half() const { return words().half.load(std::memory_order_acquire); }
+    static_assert(sizeof(SharedState) <= page);
+    std::uint32_t half() const { return shared().half.load(std::memory_order_acquire); }
     void store_half(std::uint32_t half) {
-        words().half.store(half, std::memory_order_release);
-        syscall(SYS_futex, &words().half, FUTEX_WAKE, INT_MAX, nullptr, nullptr, 0);
+        shared().half.store(half, std::memory_order_release);
+        syscall(SYS_futex, &shared().half, FUTEX_WAKE, INT_MAX, nullptr, nullptr, 0);
     }
     /// Returns true in the first call of each half, and then discards this thread's earlier switches.
     bool forget_earlier_switches() {
@@ -130,7 +130,7 @@ class Floor {
         thread_local std::uint64_t noted = thread_switches(); // one floor in a process
         return noted;
     }
-    Words& words() const { return *static_cast<Words*>(region_.get_address()); }
+    SharedState& shared() const { return *static_cast<SharedState*>(region_.get_address()); }
 
     Role role_;
     ipc::mapped_region region_;
