@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <unistd.h>
 
 struct TankSensor {
     int level;
@@ -41,7 +42,10 @@ static void have_fault(const std::string& fault) {
         std::this_thread::sleep_for(std::chrono::seconds(60));
     }
     static int calls = 0; // only of the component with this fault
-    if (fault == "hang" || (fault == "hang later" && ++calls > 20))
+    static const std::string when_file_exists = "hang when there is the file ";
+    const bool hangs_now = fault.compare(0, when_file_exists.size(), when_file_exists) == 0 &&
+                           access(fault.c_str() + when_file_exists.size(), F_OK) == 0;
+    if (hangs_now || fault == "hang" || (fault == "hang later" && ++calls > 20))
         for (;;) std::this_thread::sleep_for(std::chrono::seconds(60));
     if (fault == "damaged heap") { // the fault is found by the allocator
         volatile long* block = static_cast<long*>(std::malloc(40));
