@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Values between two threads of a host: they go through a ring, without a lock that both threads take.
+#include "host/rt/cycle_lines.hpp"
 #include "host/rt/rehearsal.hpp"
 #include "tests/host/opros/runtime/archive_source.hpp"
 #include "tests/support/allocations.hpp"
@@ -117,6 +118,22 @@ TEST_CASE("a rehearsal of a pop takes nothing from a ring") {
     CHECK(in.getSize() == 1);
     CHECK(drain(in) == std::vector<Values>{value});
     for (int i = 0; i < 10'000; ++i) CHECK(in.pop() == nullptr); // rehearses now and then
+}
+
+TEST_CASE("a rehearsal notes the cache lines of a pop") {
+    const auto noted_by_rehearsal = [](InputDataPort<int>& port) {
+        tandem::rt::CycleLines lines;
+        tandem::rt::this_thread_lines = &lines;
+        port.rehearse();
+        tandem::rt::this_thread_lines = nullptr;
+        return lines.count();
+    };
+    InputDataPort<int> polled, unused;
+    // This thread becomes the owner of the consumer's mutex.
+    for (int i = 0; i < 40; ++i) CHECK(polled.pop() == nullptr);
+    if (tandem::test::mutexes_have_owners())
+        CHECK(noted_by_rehearsal(polled) == 6); // port, implementation, mutex, ring, reader, cell
+    CHECK(noted_by_rehearsal(unused) == 1);
 }
 
 TEST_CASE("reset empties a ring of any depth, and a port may accept an empty value") {
