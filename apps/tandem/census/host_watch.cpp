@@ -25,6 +25,7 @@ using namespace std::chrono_literals;
 
 constexpr auto start_limit = 30s; // the host's own limits are shorter
 constexpr auto stop_limit = 5s;
+constexpr auto longest_delay = 3s;                        // of a cycle on a loaded machine
 constexpr std::size_t max_output = std::size_t{32} << 20; // bytes
 constexpr const char* marks[] = {"crashed in", "[critical]", "[error]",
                                  "error"}; // in the order of their weight
@@ -119,6 +120,7 @@ class HostWatch {
         wait([] { return false; }, seconds / 2);
         const auto before = now_;
         wait([] { return false; }, seconds / 2);
+        wait([&] { return now_.error || runs_since(before); }, longest_delay);
         if (!failed()) judge(before);
         return end();
     }
@@ -154,12 +156,17 @@ class HostWatch {
 
     std::string last_words() const { return first_error_.text().empty() ? "" : ": " + first_error_.text(); }
 
+    // A component without ticks runs if it is active. A period may be longer than the time since `before`.
+    bool runs_since(const Published& before) const {
+        return now_.active && (!now_.has_ticks || now_.waits || now_.ticks != before.ticks);
+    }
+
     void judge(const Published& before) {
         if (now_.error)
             record_.error = "goes to its error state" + last_words();
         else if (!now_.active)
             record_.error = "does not become active" + where(now_);
-        else if (now_.has_ticks && !now_.waits && now_.ticks == before.ticks) // a period may be longer
+        else if (!runs_since(before))
             record_.error = "hangs" + where(now_);
         else
             record_.runs = true;
