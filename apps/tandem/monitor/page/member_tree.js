@@ -9,7 +9,7 @@ import {keyOfPort} from './tables.js';
 const mostPorts = 100;
 
 /** Yields the names of the numbers in a decoded message, such as `pose.x`. */
-export function* namesIn(value, name = '') {
+function* namesIn(value, name = '') {
   if (typeof value === 'number' || typeof value === 'boolean') yield name || 'value';
   else if (value !== null && typeof value === 'object')
     for (const [key, member] of Object.entries(value))

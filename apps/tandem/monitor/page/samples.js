@@ -131,7 +131,7 @@ export class Track {
 }
 
 /** Returns the port of a key from keyOfPort(): link and owner contain no slash. */
-export function portOfKey(key) {
+function portOfKey(key) {
   const [link, owner, ...name] = key.split('/');
   return {link, owner, port: name.join('/')};
 }

@@ -43,7 +43,7 @@ function nodesOf(host, connected, width) {
 }
 
 /** Returns {hosts, edges} for each group of hosts that are connected with each other. */
-export function connectedGroups({hosts, edges}) {
+function connectedGroups({hosts, edges}) {
   const groupOf = new Map(hosts.map((host) => [host, {hosts: [host], edges: []}])), hostOf = new Map(); // by ports
   for (const host of hosts)
     for (const {ports} of host.components) for (const {id, inner} of ports) hostOf.set(id, host).set(inner, host);

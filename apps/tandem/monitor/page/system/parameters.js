@@ -6,7 +6,7 @@ import {make} from '../dom.js';
 const numberText = '([-+]?[\\d.]+(?:e[-+]?\\d+)?)';
 
 /** Returns what a constraint says: {low, high} of a number, and the `values` of a list. */
-export function constraintIn(text = '') {
+function constraintIn(text = '') {
   const list = text.match(/^\s*[({](.*)[)}]\s*$/)?.[1];
   const low = text.match(new RegExp(`${numberText}\\s*<=?\\s*x`))?.[1] ?? text.match(new RegExp(`x\\s*>=?\\s*${numberText}`))?.[1];
   const high = text.match(new RegExp(`x\\s*<=?\\s*${numberText}`))?.[1];

@@ -7,7 +7,7 @@ const pause = 1000; // ms between two requests
 const find = (id) => document.getElementById(id);
 const name = (path) => path.split('/').pop();
 
-export function sizeText(bytes) {
+function sizeText(bytes) {
   const unit = bytes < 1e6 ? ['kB', 1e3] : bytes < 1e9 ? ['MB', 1e6] : ['GB', 1e9];
   return `${(bytes / unit[1]).toFixed(bytes < 1e6 ? 0 : 1)} ${unit[0]}`;
 }
