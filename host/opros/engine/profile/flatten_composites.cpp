@@ -24,6 +24,7 @@ class CompositeFlattener {
         flat_.name = application.name;
         flat_.local_node = application.local_node;
         flat_.nodes = application.nodes;
+        flat_.structure_errors = application.structure_errors;
         add_assembly(application, "", "");
         for (ConnectionProfile& connection : flat_.connections) {
             resolve_exported_port(connection, connection.source);

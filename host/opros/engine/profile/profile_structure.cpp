@@ -31,6 +31,10 @@ constexpr ElementPlace places[] = {
     {"export_port", "export_ports"},
 };
 
+/// These have no other children than those in `places`.
+constexpr std::string_view lists[] = {"properties", "ports", "subcomponents", "port_connections",
+                                      "export_ports"};
+
 /// The engine reads only the first of these elements, in the root element and in these.
 constexpr std::string_view single_parents[] = {
     "execution_environment", "execution_semantics", "data_port",      "event_port",
@@ -97,9 +101,19 @@ class StructureCheck {
     void check_place(const pugi::xml_node& node, const pugi::xml_node& parent) {
         const auto* const place = std::find_if(std::begin(places), std::end(places),
                                                [&](const auto& each) { return each.name == node.name(); });
+        if (place == std::end(places) && contains(lists, parent.name()))
+            add(node, tag(node.name()) + " is unknown in " + tag(parent.name()) + ", expected " +
+                          children_of(parent));
         if (place != std::end(places) && place->parent != parent.name())
             add(node, tag(node.name()) + " has no effect in " + tag(parent.name()) + "; move it into " +
                           tag(std::string(place->parent).c_str()));
+    }
+
+    static std::string children_of(const pugi::xml_node& list) {
+        std::string all;
+        for (const auto& [name, parent] : places)
+            if (parent == list.name()) all += (all.empty() ? "" : " or ") + tag(std::string(name).c_str());
+        return all;
     }
 
     void check_number(const pugi::xml_node& node) {

@@ -104,6 +104,16 @@ TEST_CASE("a repeated or misplaced element is reported, with the one that counts
     CHECK_THAT(profile.structure_errors[2], Contains("<usage> is already in line"));
 }
 
+TEST_CASE("an element that the list around it does not know is reported") {
+    const Folder folder;
+    CHECK(check(folder, "<proprety name=\"A\">1</proprety>\n") ==
+          Lines{"M.xml:6: <proprety> is unknown in <properties>, expected <property>"});
+    CHECK(check(folder, "</properties><ports><data_prot/></ports><properties>\n") ==
+          Lines{"M.xml:6: <data_prot> is unknown in <ports>, expected <data_port> or <event_port> or "
+                "<service_port>",
+                "M.xml:6: <properties> is already in line 5; this one has no effect; remove one"});
+}
+
 TEST_CASE("a profile that is nested without end or repeats an element many times gets at most 100 lines") {
     const Folder folder;
     std::string deep, properties;
