@@ -142,6 +142,7 @@ function showConnection(connected, text) {
 }
 
 let retry = 500; // ms, doubles up to 8 s
+const longestSilence = 3000; // ms; the monitor sends five states a second
 
 function connect() {
   // The token entitles to a place that other clients cannot take.
@@ -150,24 +151,13 @@ function connect() {
   let silent, received = false;
   const watch = () => {
     clearTimeout(silent);
-    silent = setTimeout(() => socket.close(), 5000); // an unreachable machine does not close the socket
+    silent = setTimeout(end, longestSilence);
   };
-  watch();
-  let waiting = null; // draws only the newest state, when the browser draws
-  socket.onmessage = (message) => {
-    received = true;
-    watch();
-    retry = 500;
-    showConnection(true, 'Connected');
-    if (waiting === null && !document.hidden) requestAnimationFrame(() => {
-      const text = waiting;
-      waiting = null;
-      show(JSON.parse(text));
-    });
-    if (!document.hidden) waiting = message.data;
-  };
-  socket.onclose = async () => {
+  // A monitor that is stopped, or on a machine out of reach, does not close the socket, and a browser waits long for that.
+  const end = async () => {
     clearTimeout(silent);
+    socket.onmessage = socket.onclose = null;
+    socket.close();
     const state = received ? null : await requestState();
     if (state !== null) {
       showConnection(true, 'Connected without WebSocket: new values once a second');
@@ -179,6 +169,26 @@ function connect() {
     setTimeout(connect, retry);
     retry = Math.min(2 * retry, 8000);
   };
+  watch();
+  let waiting = null; // draws only the newest state, when the browser draws
+  let toldHidden = 0; // when the verdict of a hidden page, which is its title, was last shown
+  socket.onmessage = (message) => {
+    received = true;
+    watch();
+    retry = 500;
+    showConnection(true, 'Connected');
+    if (waiting === null && !document.hidden) requestAnimationFrame(() => {
+      const text = waiting;
+      waiting = null;
+      show(JSON.parse(text));
+    });
+    if (!document.hidden) waiting = message.data;
+    else if (performance.now() - toldHidden >= 1000) {
+      toldHidden = performance.now();
+      showVerdict(JSON.parse(message.data).verdict);
+    }
+  };
+  socket.onclose = end;
 }
 
 find('recording-now').addEventListener('click', (event) => {

@@ -167,6 +167,32 @@ test("a killed host turns the verdict red, and its restart turns it back", async
   assert.match(await text("#events"), /rtm_host \(pid \d+\) has started again/);
 });
 
+test("a monitor that is stopped is said not to answer, and the page shows its states again when it continues", async () => {
+  monitor.child.kill("SIGSTOP");
+  try {
+    await page.waitForSelector("#verdict.unreadable");
+    assert.match(await text("#verdict .text"), /Disconnected/);
+    assert.match(await text("#connection"), /^Disconnected/);
+  } finally {
+    monitor.child.kill("SIGCONT");
+  }
+  await page.waitForSelector("body:not(.disconnected)");
+  await verdictIsFine();
+});
+
+test("the title of a page in the background follows the verdict", async () => {
+  const fine = await page.title();
+  await page.evaluate(() => Object.defineProperty(document, "hidden", { get: () => true, configurable: true }));
+  process.kill(chair.opros, "SIGSTOP");
+  try {
+    await page.waitForFunction((before) => document.title !== before && !/All is well/.test(document.title), fine);
+  } finally {
+    process.kill(chair.opros, "SIGCONT");
+  }
+  await page.evaluate(() => delete document.hidden);
+  await page.waitForSelector("#verdict");
+});
+
 test("a monitor that ends is said to be gone, and the page finds the next one by itself", async () => {
   await end(monitor.child);
   await page.waitForSelector(".disconnected");
