@@ -62,6 +62,17 @@ class Comparison {
             if (!has(after, refused) && lives(refused.pid)) tell(false, refused, "are no longer refused");
     }
 
+    // The sides of a link say more about a host than this.
+    void compare_hosts_without_links(const State& before, const State& after) {
+        for (const HostState& was : before.hosts) {
+            const bool lives = std::any_of(after.hosts.begin(), after.hosts.end(),
+                                           [&](const HostState& is) { return is.pid == was.pid; });
+            if (was.links.empty() && !lives)
+                events_.push_back({0, time_ms_, true, was.program,
+                                   fmt::format("{} (pid {}) has ended or died", was.program, was.pid)});
+        }
+    }
+
     void compare_hangs(const std::vector<TickState>& before, const std::vector<TickState>& after) {
         const auto same_in = [](const std::vector<TickState>& ticks, const TickState& tick) {
             return std::find_if(ticks.begin(), ticks.end(), [&](const TickState& each) {
@@ -201,6 +212,7 @@ std::vector<Event> events_between(const State& before, const State& after) {
     }
     for (const LinkState& link : before.links)
         if (find_link(after, link.name) == nullptr) comparison.gone(link);
+    comparison.compare_hosts_without_links(before, after);
     comparison.compare_refusals(before, after);
     comparison.compare_components(before, after);
     comparison.compare_notices(before, after);

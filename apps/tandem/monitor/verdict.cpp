@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <ctime>
+#include <map>
 
 namespace tandem::monitor {
 namespace {
@@ -164,6 +165,21 @@ void judge_hosts(const State& state, Findings& findings) {
                                  refused.from, refused.to, refused.reason));
 }
 
+/// Reports ACTIVE RTCs that run no cycle because each of their execution contexts is stopped.
+void judge_contexts(const HostState& host, const State& state, Findings& findings) {
+    if (!host.inventory) return;
+    std::map<std::string, bool> is_run;
+    for (const HostContext& context : host.inventory->contexts)
+        for (const std::string& component : context.components) is_run[component] |= context.running;
+    for (const ComponentStatus& component : state.components) {
+        if (component.pid != host.pid || component.state != process::ComponentState::active) continue;
+        if (const auto found = is_run.find(component.name); found != is_run.end() && !found->second)
+            findings.add(Level::inactive,
+                         fmt::format("{} in {} (pid {}) is active, but its execution context is stopped",
+                                     component.name, component.program, component.pid));
+    }
+}
+
 /// Reports missing links, a failed recording, and what could not be read.
 void judge_completeness(const State& state, Findings& findings) {
     for (const std::string& link : state.missing_links)
@@ -248,6 +264,7 @@ Verdict judge(const State& state) {
     judge_hangs(state.ticks, findings);
     for (const TickState& tick : state.ticks) judge_tick(tick, findings);
     judge_hosts(state, findings);
+    for (const HostState& host : state.hosts) judge_contexts(host, state, findings);
     judge_completeness(state, findings);
     if (seen == 0 && !state.links.empty() && state.hosts.empty())
         findings.add(Level::no_link, "all links belong to other users");

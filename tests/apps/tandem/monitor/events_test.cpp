@@ -33,6 +33,18 @@ TEST_CASE("links that come and go are events") {
     CHECK(events_between(state_of({sound_link()}), state_of({sound_link()})).empty());
 }
 
+TEST_CASE("a host without a link that is no longer there is a failure") {
+    State alone = state_of({}), linked = state_of({sound_link()});
+    alone.hosts = {{7, "rtm_host"}};
+    linked.hosts = {{22, "rtm_host", {}, {"chair"}}};
+    const auto gone = events_between(alone, state_of({}));
+    REQUIRE(gone.size() == 1);
+    CHECK(gone[0].bad);
+    CHECK(gone[0].text == "rtm_host (pid 7) has ended or died");
+    CHECK(events_between(alone, alone).empty());
+    CHECK(events_between(linked, state_of({sound_link()})).empty()); // the link's sides say it
+}
+
 TEST_CASE("a state that could not be read is not an event") {
     State unseen;
     unseen.error = "/dev/shm: cannot be listed";

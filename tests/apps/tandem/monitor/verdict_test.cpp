@@ -223,6 +223,23 @@ TEST_CASE("components that are not active, and what a host does not do, are find
     check(Level::dropping, "rtm_host (pid 22): the tool that observes Arm0 does not answer");
 }
 
+TEST_CASE("an active component of which each execution context is stopped is a finding") {
+    const auto level = [](std::vector<HostContext> contexts) {
+        State state = state_of({sound_link()});
+        state.components = {{"rtm_host", 22, "Arm0", tandem::process::ComponentState::active}};
+        HostInventory inventory;
+        inventory.contexts = std::move(contexts);
+        state.hosts = {{22, "rtm_host", {}, {"chair"}, std::make_shared<const HostInventory>(inventory)}};
+        return judge(state).level;
+    };
+    const HostContext runs{"Arm0", "periodic", 1, true, {"Arm0"}},
+        stopped{"Arm0", "periodic", 1, false, {"Arm0"}}, of_other{"Hand0", "periodic", 1, false, {"Hand0"}};
+    CHECK(level({}) == Level::well);
+    CHECK(level({runs, of_other}) == Level::well);
+    CHECK(level({stopped, runs}) == Level::well);
+    CHECK(level({stopped}) == Level::inactive);
+}
+
 TEST_CASE("what a scan could not read, and a recording that has failed, are findings") {
     State state = state_of({sound_link()});
     state.cut = "link chair: not all messages were read";
