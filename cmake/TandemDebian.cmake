@@ -24,6 +24,7 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # Where dpkg-shlibdeps finds our own libraries; tandem_deb_package() names the packages that have them.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR}/lib)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+set(CPACK_TANDEM_EMULATOR ${CMAKE_CROSSCOMPILING_EMULATOR}) # runs the programs for their man pages; empty: none
 set(CPACK_INSTALL_SCRIPTS ${debian}/stage.cmake)
 set(CPACK_PRE_BUILD_SCRIPTS ${debian}/check_stage.cmake)
 set(CPACK_TANDEM_BUILD ${PROJECT_BINARY_DIR}) # for these two

@@ -68,7 +68,7 @@ if [ ${#programs[@]} -lt $# ]; then
     echo "== test_wheelchair_hosts: lock-step"
     build/arm64/tests/test_wheelchair_hosts -w NoTests '*lock-step is the in-memory run*'
     mkdir -p build/arm64/wheelchair
-    build/arm64/bin/wheelchair --lockstep --csv build/arm64/wheelchair/run.csv --plot build/arm64/wheelchair/run.svg \
+    build/arm64/bin/wheelchair --lockstep --host-wait 60 --csv build/arm64/wheelchair/run.csv --plot build/arm64/wheelchair/run.svg \
         --json build/arm64/wheelchair/run.json
 fi
 BUILD

@@ -1,13 +1,22 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# write_man_pages.sh PREFIX VERSION: a man page for each program in PREFIX/bin and each sub-command of tandem, made by
-# help2man of what `--help` prints, in PREFIX/share/man/man1.
+# write_man_pages.sh PREFIX VERSION [EMULATOR]: a man page for each program in PREFIX/bin and each sub-command of tandem, made by
+# help2man of what `--help` prints, in PREFIX/share/man/man1. EMULATOR runs programs for another processor.
 set -euo pipefail
 prefix=$1 version=$2
 pages=$prefix/share/man/man1
 export PATH=$prefix/bin:$PATH LD_LIBRARY_PATH=$prefix/lib LC_ALL=C.UTF-8
 command -v help2man >/dev/null || { echo "write_man_pages.sh: help2man not found; apt install help2man" >&2; exit 1; }
 mkdir -p "$pages"
+if [ $# -gt 2 ]; then
+    emulated=$(mktemp -d)
+    trap 'rm -rf "$emulated"' EXIT
+    for program in opros_host rtm_host tandem tandem-bench wheelchair; do
+        printf '#!/bin/sh\nexec %s %s "$@"\n' "$3" "$prefix/bin/$program" >"$emulated/$program"
+        chmod +x "$emulated/$program"
+    done
+    PATH=$emulated:$PATH
+fi
 
 # write_page PAGE COMMAND [help2man option ...]: from the help of COMMAND, whose first line is the summary of the page.
 write_page() {

@@ -15,8 +15,8 @@ void check_all_scenarios(const std::string& configuration) {
         if (scenario.name == "recorded") continue;
         const ScratchDir dir;
         const std::string csv = dir / "run.csv";
-        const auto result = wheelchair_program(
-            {"--config", configuration, "--scenario", scenario.name, "--lockstep", "--csv", csv});
+        const auto result = wheelchair_program({"--config", configuration, "--scenario", scenario.name,
+                                                "--lockstep", "--host-wait", "60", "--csv", csv});
         INFO(configuration << " " << scenario.name << ": " << result.errors);
         CHECK(result.exit_code() == 0);
         CHECK(result.errors.empty());
