@@ -121,10 +121,12 @@ void check_link(const std::string& link, std::vector<CheckResult>& found) {
         for (const auto side : {shm::Side::first, shm::Side::second}) {
             if (!observation) continue;
             const auto& there = observation->segment.side(side);
-            if (there.state != shm::PeerState::alive && there.state != shm::PeerState::stopped) continue;
-            const std::string process = there.pid_elsewhere != 0
-                                            ? "the process with " + format_pid(there.pid, there.pid_elsewhere)
-                                            : fmt::format("process {}", there.pid);
+            if (!there.held && there.state != shm::PeerState::alive && there.state != shm::PeerState::stopped)
+                continue;
+            const std::string process =
+                there.pid_elsewhere != 0 ? "the process with " + format_pid(there.pid, there.pid_elsewhere)
+                : there.pid != 0         ? fmt::format("process {}", there.pid)
+                                 : "a process of another build of Tandem"; // its segment cannot be read
             found.push_back(
                 doctor::error("link " + link, process + " uses it",
                               fmt::format("only one host of each model can use a link: end {}, or give this "
