@@ -28,7 +28,7 @@ ALLOWED = {
     "host/options": ["host/plugin", "host/rt", "host/process", "host/text"],
     "host/opros/runtime/archive": [],
     "host/opros/runtime/port": ["host/opros/runtime/archive", "host/rt"],
-    "host/opros/runtime/component": ["host/opros/runtime/archive"],
+    "host/opros/runtime/component": ["host/opros/runtime/archive", "host/rt"],
     "host/opros/engine/profile": ["host/text"],
     "host/opros/engine/node": ["host/opros/engine/profile", "host/text", "shm/os"],
     "host/opros/engine/load": ["host/opros/engine/profile", "host/opros/runtime/component", "host/plugin", "host/process",
