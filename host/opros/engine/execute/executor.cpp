@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <span>
 #include <tuple>
 
 namespace tandem::engine {
@@ -121,9 +122,9 @@ void Executor::rehearse() {
 
 /// Reports the lines that a cycle in a shared thread uses besides those of the tick and the components.
 void Executor::note_lines() const {
-    rt::note_lines(&components_, sizeof components_);
-    rt::note_lines(components_.data(), components_.size() * sizeof(ComponentHost*));
-    rt::note_lines(&trigger_, sizeof trigger_);
+    const std::span all(components_.data(), components_.size());
+    rt::note_lines(this, sizeof *this);
+    rt::note_lines(all.data(), all.size_bytes());
     rt::note_lines(trigger_.get(), sizeof(void*)); // its virtual functions
 }
 
